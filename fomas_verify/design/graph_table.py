@@ -1,0 +1,150 @@
+"""The table [graph]: exactly one of adjacency, edges and family.
+
+Notation: `adjacency[i][j]` is a_ij, agent i hears agent j; an edge `[from, to, weight]` says that `to` hears `from`.
+Agents count from 1.
+"""
+
+from collections.abc import Callable, Mapping
+from fractions import Fraction
+from math import lcm
+from typing import Final
+
+from fomas_verify.design.errors import DesignError
+from fomas_verify.design.fields import Place, choice, count, number, one_of, positive, sequence, shown, table
+from fomas_verify.network import FAMILIES, SHAPED_FAMILIES, Digraph, Edge, GraphError, digraph, family
+
+MAX_AGENTS: Final = 2000
+MAX_DENOMINATOR_BITS: Final = 256
+
+_FORMS = ("adjacency", "edges", "family")
+_UNSUPPORTED = ("file", "orientation")
+# The keys that may stand beside each form.
+_COMPANIONS: dict[str, tuple[str, ...]] = {"adjacency": (), "edges": ("agents",), "family": ("agents", "shape")}
+_ONE = Fraction(1)
+
+
+def read_graph(value: object, place: Place) -> Digraph:
+    """Read the table [graph].
+
+    Raises
+    ------
+    DesignError
+        It does not describe a digraph on 2 to 2000 agents whose weights are positive and have a common denominator of
+        at most 256 bits; or it uses what is not supported yet.
+    """
+    graph = table(value, place, (*_FORMS, "agents", "shape", *_UNSUPPORTED))
+    for key in _UNSUPPORTED:
+        if key in graph:
+            raise place.key(key).unsupported("reading a graph from a file is")
+    forms = [form for form in _FORMS if form in graph]
+    if len(forms) != 1:
+        got = " and ".join(forms) or "none of them"
+        raise DesignError(f"{place}: expected exactly {one_of(_FORMS)}, got {got}")
+    form = forms[0]
+    for key in ("agents", "shape"):
+        if key in graph and key not in _COMPANIONS[form]:
+            raise DesignError(f"{place.key(key)}: expected only with {_beside(key)}, got it with {form}")
+    readers: dict[str, Callable[[Mapping[str, object], Place], Digraph]] = {
+        "adjacency": _from_adjacency,
+        "edges": _from_edges,
+        "family": _from_family,
+    }
+    return readers[form](graph, place)
+
+
+def _from_adjacency(graph: Mapping[str, object], place: Place) -> Digraph:
+    where = place.key("adjacency")
+    rows = sequence(graph["adjacency"], where, "a list of rows")
+    if len(rows) < 2:
+        raise where.expected("at least 2 rows", rows)
+    agents = _agents(len(rows), where)
+    edges: list[Edge] = []
+    weights = _Weights()
+    for i, row in enumerate(rows):
+        row_place = where.item(i)
+        entries = sequence(row, row_place, f"a row of {agents} numbers", agents)
+        for j, entry in enumerate(entries):
+            if type(entry) is int and entry == 0:
+                continue
+            here = row_place.item(j)
+            weight = number(entry, here)
+            if weight < 0:
+                raise here.expected("a weight >= 0", entry)
+            if weight and i == j:
+                raise here.expected("0 on the diagonal (no self-loop)", entry)
+            if weight:
+                edges.append((j + 1, i + 1, weights.admit(weight, here)))
+    return digraph(agents, edges)
+
+
+def _from_edges(graph: Mapping[str, object], place: Place) -> Digraph:
+    agents = _agents(graph.get("agents"), place.key("agents"))
+    where = place.key("edges")
+    found: dict[tuple[int, int], Fraction] = {}
+    weights = _Weights()
+    for position, value in enumerate(sequence(graph["edges"], where, "a list of edges")):
+        here = where.item(position)
+        source, target, weight = _edge(value, here, agents)
+        if (source, target) in found:
+            raise DesignError(f"{here}: expected each edge once, got the edge from {source} to {target} again")
+        found[source, target] = weights.admit(weight, here)
+    return digraph(agents, ((*ends, weight) for ends, weight in found.items()))
+
+
+def _edge(value: object, place: Place, agents: int) -> Edge:
+    entries = sequence(value, place, "an edge [from, to] or [from, to, weight]")
+    if len(entries) not in (2, 3):
+        raise place.expected("an edge [from, to] or [from, to, weight]", value)
+    source, target = (count(entry, place.item(end), 1, agents) for end, entry in enumerate(entries[:2]))
+    if source == target:
+        raise DesignError(f"{place}: expected two different agents (no self-loop), got {source} twice")
+    return source, target, positive(entries[2], place.item(2), "a weight") if len(entries) == 3 else _ONE
+
+
+def _from_family(graph: Mapping[str, object], place: Place) -> Digraph:
+    name = choice(graph["family"], place.key("family"), "a family", (*FAMILIES, *SHAPED_FAMILIES))
+    if name in FAMILIES:
+        if "shape" in graph:
+            raise DesignError(f"{place.key('shape')}: expected only with {_beside('shape')}, got it with {name}")
+        where = place.key("agents")
+        agents = _agents(graph.get("agents"), where)
+        return _built(name, where, agents=agents)
+    where = place.key("shape")
+    sides = sequence(graph.get("shape"), where, "two integers [rows, columns]", 2)
+    rows, columns = (count(side, where.item(i), 1) for i, side in enumerate(sides))
+    if rows * columns > 1:
+        _agents(rows * columns, where)
+    if "agents" in graph and count(graph["agents"], place.key("agents"), 2) != rows * columns:
+        raise place.key("agents").expected(f"{rows * columns}, as the shape says", graph["agents"])
+    return _built(name, where, shape=(rows, columns))
+
+
+def _built(name: str, place: Place, *, agents: int | None = None, shape: tuple[int, int] | None = None) -> Digraph:
+    try:
+        return family(name, agents=agents, shape=shape)
+    except GraphError as error:
+        raise DesignError(f"{place}: {error}") from None
+
+
+def _agents(value: object, place: Place) -> int:
+    agents = count(value, place, 2)
+    if agents > MAX_AGENTS:
+        raise place.unsupported(f"{shown(agents)} agents, more than {MAX_AGENTS}, are")
+    return agents
+
+
+def _beside(key: str) -> str:
+    return {"agents": "edges or a family", "shape": " or ".join(SHAPED_FAMILIES)}[key]
+
+
+class _Weights:
+    """The common denominator of the weights so far, kept within its bound."""
+
+    def __init__(self) -> None:
+        self._denominator = 1
+
+    def admit(self, weight: Fraction, place: Place) -> Fraction:
+        self._denominator = lcm(self._denominator, weight.denominator)
+        if self._denominator.bit_length() > MAX_DENOMINATOR_BITS:
+            raise place.expected(f"weights whose common denominator has at most {MAX_DENOMINATOR_BITS} bits", weight)
+        return weight

@@ -1,0 +1,70 @@
+"""A design: what is to be decided about, in exact numbers."""
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from fomas_verify.design.errors import DesignError
+from fomas_verify.network import Digraph
+
+
+@dataclass(frozen=True)
+class Design:
+    """A valid design, every number exact.
+
+    Attributes
+    ----------
+    name : str
+        1 to 200 printable characters.
+    alpha : Fraction
+        Order of the Caputo derivative, 0 < alpha < 1, numerator and denominator below 2^64.
+    gamma, mu : Fraction or None
+        Control gain and integrated gain `mu = gamma h^alpha / Gamma(alpha + 1)`, > 0; at most one of them is given.
+    h : Fraction or None
+        Sampling period in seconds, > 0.
+    graph : Digraph
+        a_ij: agent i hears agent j.
+    x0 : tuple of Fraction or None
+        Initial state, a number for each agent.
+    horizon : int or None
+        Last sample k up to which (14) is also checked sample by sample.
+    require : tuple of str
+        Ids of the claims that must be proved, at least one, none twice.
+    source : str
+        The file it was read from, for messages.
+    notes : tuple of str
+        What the user must know about the reading of the numbers.
+    """
+
+    name: str
+    alpha: Fraction
+    gamma: Fraction | None
+    mu: Fraction | None
+    h: Fraction | None
+    graph: Digraph
+    x0: tuple[Fraction, ...] | None
+    horizon: int | None
+    require: tuple[str, ...]
+    source: str
+    notes: tuple[str, ...] = ()
+
+    def needs(self, key: str, *, command: str) -> None:
+        """Make sure that the design gives what a command needs.
+
+        Parameters
+        ----------
+        key : str
+            `"mu"`: mu, or gamma and h; or one of `"gamma"`, `"h"`, `"x0"`, `"horizon"`.
+        command : str
+            Name of the command, for the message.
+
+        Raises
+        ------
+        DesignError
+            It does not; the message names the missing key and the command.
+        """
+        if key == "mu":
+            if self.mu is None and (self.gamma is None or self.h is None):
+                missing = "h" if self.gamma is not None else "gamma" if self.h is not None else "mu"
+                raise DesignError(f"{self.source}: {missing}: {command} needs mu, or gamma and h; got no {missing}")
+        elif {"gamma": self.gamma, "h": self.h, "x0": self.x0, "horizon": self.horizon}[key] is None:
+            raise DesignError(f"{self.source}: {key}: {command} needs {key}; got no {key}")

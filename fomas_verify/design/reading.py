@@ -1,0 +1,191 @@
+"""From a file, a text or a mapping to a design, or to the reason why not.
+
+Source: the section on the design file in the README.
+"""
+
+from collections.abc import Mapping
+from fractions import Fraction
+from os import PathLike
+from pathlib import Path
+from typing import Final
+
+from fomas_verify.design.claim_ids import CLAIM_IDS, DEFAULT_REQUIRE, UNSUPPORTED_CLAIM_IDS
+from fomas_verify.design.document import Format, format_of, parse_document, read_text, source_name
+from fomas_verify.design.errors import DesignError
+from fomas_verify.design.fields import Place, choice, count, number, positive, sequence, table
+from fomas_verify.design.graph_table import read_graph
+from fomas_verify.design.model import Design
+
+FORMAT: Final = "fomas-design/1"
+MAX_HORIZON: Final = 10**9
+MAX_NAME: Final = 200
+
+_KEYS = ("name", "alpha", "gamma", "mu", "h", "x0", "horizon", "graph", "gate", "format")
+_UNSUPPORTED = ("settle_to", "graphs", "limits")
+_ALPHA_LIMIT = 2**64
+
+
+def read_design(path: str | PathLike[str]) -> Design:
+    """Read a design file, TOML or JSON by its extension, otherwise by its content.
+
+    Parameters
+    ----------
+    path : path
+        A regular file of at most 16 MiB in UTF-8.
+
+    Returns
+    -------
+    Design
+        Valid and exact; its name defaults to that of the file.
+
+    Raises
+    ------
+    DesignError
+        With one line that names the file, the key and what was expected.
+    """
+    text = read_text(path)
+    return parse_design(text, format_of(path, text), source_name(path))
+
+
+def parse_design(text: str, format_: Format, source: str) -> Design:
+    """Read a design from TOML or JSON text, which messages call `source`; raises as `read_design` does."""
+    return design_from_mapping(parse_document(text, format_, source), source)
+
+
+def design_from_mapping(mapping: Mapping[str, object], source: str = "design") -> Design:
+    """Read a design from a mapping with the keys of the design file.
+
+    Parameters
+    ----------
+    mapping : mapping
+        Numbers are `int`, `Fraction`, a decimal or fraction in a `str`, or `float`, which is read as its shortest
+        decimal (0.1 is 1/10) and noted in `Design.notes`.
+    source : str
+        Names the design in messages; its stem is the default name.
+
+    Returns
+    -------
+    Design
+        Valid and exact.
+
+    Raises
+    ------
+    DesignError
+        With one line that names the source, the key and what was expected.
+
+    Examples
+    --------
+    >>> graph = {"family": "directed-cycle", "agents": 3}
+    >>> design_from_mapping({"alpha": "9/10", "mu": "0.1", "graph": graph}).mu
+    Fraction(1, 10)
+    """
+    place = Place(source)
+    top = table(mapping, place, (*_KEYS, *_UNSUPPORTED))
+    for key in _UNSUPPORTED:
+        if key in top:
+            raise place.key(key).unsupported("this key is")
+    if "format" in top:
+        choice(top["format"], place.key("format"), "the format of a design", (FORMAT,))
+    if "gamma" in top and "mu" in top:
+        raise DesignError(f"{place.key('mu')}: expected either gamma or mu, got both")
+    alpha = _alpha(top.get("alpha"), place.key("alpha"))
+    gamma, mu, h = (_gain(top, key, place) for key in ("gamma", "mu", "h"))
+    if "graph" not in top:
+        raise place.key("graph").expected("a table", None)
+    graph = read_graph(top["graph"], place.key("graph"))
+    return Design(
+        name=_name(top, place),
+        alpha=alpha,
+        gamma=gamma,
+        mu=mu,
+        h=h,
+        graph=graph,
+        x0=_initial_state(top["x0"], place.key("x0"), graph.agents) if "x0" in top else None,
+        horizon=count(top["horizon"], place.key("horizon"), 0, MAX_HORIZON) if "horizon" in top else None,
+        require=_require(top["gate"], place.key("gate")) if "gate" in top else DEFAULT_REQUIRE,
+        source=source,
+        notes=_notes(top),
+    )
+
+
+def _alpha(value: object, place: Place) -> Fraction:
+    _refuse_interval(value, place)
+    alpha = number(value, place)
+    if not 0 < alpha < 1:
+        raise place.expected("a number between 0 and 1, both excluded", value)
+    if alpha.denominator >= _ALPHA_LIMIT:
+        raise place.expected("numerator and denominator below 2^64", value)
+    return alpha
+
+
+def _gain(top: Mapping[str, object], key: str, place: Place) -> Fraction | None:
+    if key not in top:
+        return None
+    _refuse_interval(top[key], place.key(key))
+    return positive(top[key], place.key(key))
+
+
+def _refuse_interval(value: object, place: Place) -> None:
+    if isinstance(value, list | tuple) and len(value) == 2:
+        raise place.unsupported("an interval is")
+
+
+def _name(top: Mapping[str, object], place: Place) -> str:
+    if "name" not in top:
+        stem = Path(place.source).stem
+        return stem if _is_name(stem) else "design"
+    name = top["name"]
+    if not isinstance(name, str) or not _is_name(name):
+        raise place.key("name").expected(f"a text of 1 to {MAX_NAME} printable characters", name)
+    return name
+
+
+def _is_name(text: str) -> bool:
+    return 0 < len(text) <= MAX_NAME and text.isprintable()
+
+
+def _initial_state(value: object, place: Place, agents: int) -> tuple[Fraction, ...]:
+    entries = sequence(value, place, f"a list of {agents} numbers, one for each agent", agents)
+    dimensions = [len(entry) for entry in entries if isinstance(entry, list | tuple)]
+    if not dimensions:
+        return tuple(number(entry, place.item(i)) for i, entry in enumerate(entries))
+    dimension = max(dimensions[0], 1)
+    expectation = f"a list of length {dimension}, the same for every agent"
+    rows = [sequence(entry, place.item(i), expectation, dimension) for i, entry in enumerate(entries)]
+    state = [[number(x, place.item(i).item(j)) for j, x in enumerate(row)] for i, row in enumerate(rows)]
+    if dimension > 1:
+        raise place.unsupported(f"agents with {dimension} states are")
+    return tuple(x for (x,) in state)
+
+
+def _require(value: object, place: Place) -> tuple[str, ...]:
+    gate = table(value, place, ("require",))
+    if "require" not in gate:
+        return DEFAULT_REQUIRE
+    where = place.key("require")
+    entries = sequence(gate["require"], where, "a list of claim ids")
+    if not entries:
+        raise where.expected("at least one claim id", entries)
+    required: list[str] = []
+    for i, entry in enumerate(entries):
+        claim = choice(entry, where.item(i), "a claim id", CLAIM_IDS)
+        if claim in UNSUPPORTED_CLAIM_IDS:
+            raise where.item(i).unsupported(f"the claim {claim} is")
+        if claim in required:
+            raise DesignError(f"{where.item(i)}: expected each claim once, got {claim} again")
+        required.append(claim)
+    return tuple(required)
+
+
+def _notes(top: Mapping[str, object]) -> tuple[str, ...]:
+    keys = [key for key, value in top.items() if _has_float(value)]
+    return (f"{', '.join(keys)}: binary floats are read as their shortest decimals (0.1 is 1/10)",) if keys else ()
+
+
+def _has_float(value: object) -> bool:
+    """Look for a binary float in a value already found valid, so that its nesting is known to be small."""
+    if isinstance(value, Mapping):
+        return any(map(_has_float, value.values()))
+    if isinstance(value, list | tuple):
+        return any(map(_has_float, value))
+    return isinstance(value, float)

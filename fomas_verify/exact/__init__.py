@@ -1,0 +1,1 @@
+"""Exact arithmetic: rational numbers, vectors, matrices, polynomials and number fields."""
