@@ -1,0 +1,72 @@
+"""The canonical JSON of a certificate. Format: docs/certificate-format.md, sections 1 to 4."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from fractions import Fraction
+from typing import Any
+
+from fomas_verify.claims.registry import CLAIMS
+from fomas_verify.claims.verdict import Decision
+from fomas_verify.design import Design
+from fomas_verify.enclosure.interval import Interval
+from fomas_verify.exact.rational import format_rational
+
+FORMAT = "fomas-certificate/1"
+TOOL = "fomas_verify"
+
+
+def certificate_text(
+    design: Design, values: Mapping[str, Interval], decisions: Mapping[str, Decision], version: str
+) -> str:
+    """The certificate of a design, the same bytes on every machine for the same design, options and version."""
+    document = {
+        "format": FORMAT,
+        "kind": "design",
+        "design": design_object(design),
+        "values": {name: {"lower": plain(x.lower), "upper": plain(x.upper)} for name, x in values.items()},
+        "claims": [
+            {
+                "id": claim.ID,
+                "verdict": decisions[claim.ID].verdict.value,
+                "statement": claim.STATEMENT,
+                "witness": plain(decisions[claim.ID].witness),
+            }
+            for claim in CLAIMS
+            if claim.ID in decisions
+        ],
+        "tool": {"name": TOOL, "version": version},
+    }
+    return dump(document) + "\n"
+
+
+def design_object(design: Design) -> dict[str, Any]:
+    """The design as the certificate names it: what the statements are about, without name, file or options."""
+    graph = design.graph
+    parts: dict[str, Any] = {"alpha": design.alpha, "gamma": design.gamma, "mu": design.mu, "h": design.h}
+    parts |= {"agents": graph.agents, "edges": [[*edge] for edge in sorted(graph.edges)], "x0": design.x0}
+    parts |= {"require": list(design.require)}
+    return {key: plain(value) for key, value in parts.items() if value is not None}
+
+
+def plain(value: Any) -> Any:
+    """The value in JSON's types: fractions as ``p/q`` in strings."""
+    if isinstance(value, Fraction):
+        return format_rational(value)
+    if isinstance(value, Mapping):
+        return {key: plain(part) for key, part in value.items()}
+    if isinstance(value, list | tuple):
+        return [plain(part) for part in value]
+    return value
+
+
+def dump(value: Any, indent: str = "") -> str:
+    """JSON with two-space indent and each array of numbers and strings on a line of its own."""
+    inner = indent + "  "
+    if isinstance(value, dict) and value:
+        lines = [f"{inner}{json.dumps(key)}: {dump(part, inner)}" for key, part in value.items()]
+        return "{\n" + ",\n".join(lines) + "\n" + indent + "}"
+    if isinstance(value, list) and any(isinstance(part, dict | list) for part in value):
+        return "[\n" + ",\n".join(inner + dump(part, inner) for part in value) + "\n" + indent + "]"
+    return json.dumps(value)

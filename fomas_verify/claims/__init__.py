@@ -1,0 +1,1 @@
+"""The statements about a design, one file each."""

@@ -1,0 +1,45 @@
+"""The paper's proof step ``norm(P e) <= beta norm(e)`` for every e that sums to 0 (first line of eq1u0, "gamma beta").
+
+beta is a lower bound of the contraction factor sigma, so the step is false unless sigma = beta. It is decided by
+comparing the two, and where they may be equal by exact algebra in Q(lambda2). Source: theory, section 3.
+"""
+
+from __future__ import annotations
+
+from fomas_verify.claims.remedy import lower_mu
+from fomas_verify.claims.verdict import Decision, Verdict, undecided
+from fomas_verify.enclosure.digits import decimal
+from fomas_verify.spectrum.contraction import beta_contraction_witness, direction_above
+from fomas_verify.spectrum.loop import Loop
+from fomas_verify.spectrum.precision import PRECISIONS
+
+ID = "beta-contraction"
+STATEMENT = "norm of P e <= beta norm of e for every e that sums to 0 (step of the proof of Theorem 1)"
+SOURCE = "equ1u0"
+COQ = ""
+MEANING = (
+    "The paper's proof of Theorem 1 uses this step, so it does not cover this design; "
+    "consensus and bounded control do not depend on it and are decided by their own claims."
+)
+
+
+def decide(loop: Loop) -> Decision:
+    """Compare sigma with beta, as to the truth."""
+    for bits in PRECISIONS:
+        beta, sigma = loop.beta(bits), loop.sigma(bits)
+        if sigma.lower > beta.upper:
+            e = direction_above(loop, beta, bits)
+            if e is not None:
+                reason = f"sigma = {decimal(sigma, 18)} > beta = {decimal(beta, 18)}"
+                return Decision(Verdict.REFUTED, {"e": e}, reason, MEANING, remedy(loop, bits))
+        elif (witness := beta_contraction_witness(loop, bits)) is not None:
+            return Decision(Verdict.PROVED, witness, f"sigma = beta = {decimal(beta, 18)}")
+    return undecided(bits, f"sigma = {decimal(sigma, 18)} and beta = {decimal(beta, 18)}")
+
+
+def remedy(loop: Loop, bits: int) -> str:
+    """What would make the step true, where anything does."""
+    if loop.laplacian == loop.laplacian.transpose():
+        spectrum = loop.symmetric_spectrum(bits)
+        return lower_mu(loop, (2 / (spectrum[0][0] + spectrum[-1][0]).upper))
+    return "rely on repaired-condition, which has sigma in place of beta"

@@ -1,0 +1,53 @@
+"""``sigma <= 2^alpha - 1``: the repaired Theorem 1's condition, for which norm u_k <= norm u_0 for every k and every
+x_0.
+
+Equality never happens for a rational mu (docs/semantics.md). Source: theory, section 3, "Repaired Theorem 1".
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from fomas_verify.claims.remedy import lower_mu, raise_mu
+from fomas_verify.claims.verdict import Decision, Verdict, undecided
+from fomas_verify.enclosure.digits import decimal
+from fomas_verify.spectrum.contraction import contraction_interval, direction_above
+from fomas_verify.spectrum.loop import Loop, exact_sigma_squared
+from fomas_verify.spectrum.precision import PRECISIONS
+
+ID = "repaired-condition"
+STATEMENT = "norm of P e <= (2^alpha - 1) norm of e for every e that sums to 0 (sigma <= 2^alpha - 1)"
+SOURCE = "theory, section 3"
+COQ = ""
+MEANING = (
+    "The repaired Theorem 1 does not cover this design: "
+    "it does not establish that norm u_k never exceeds norm u_0 for every initial state."
+)
+
+
+def decide(loop: Loop) -> Decision:
+    """Compare sigma with 2^alpha - 1, as to the truth."""
+    for bits in PRECISIONS:
+        sigma, threshold = loop.sigma(bits), loop.threshold(bits)
+        numbers = f"sigma = {decimal(sigma, 18)}", f"2^alpha - 1 = {decimal(threshold, 18)}"
+        if sigma.upper < threshold.lower:
+            return Decision(Verdict.PROVED, {}, " < ".join(numbers))
+        if sigma.lower > threshold.upper and (e := direction_above(loop, threshold, bits)) is not None:
+            return Decision(Verdict.REFUTED, {"e": e}, " > ".join(numbers), MEANING, remedy(loop))
+    return undecided(bits, " and ".join(numbers))
+
+
+def remedy(loop: Loop) -> str:
+    """The nearest mu below 1/Delta_max that satisfies the condition, seen to satisfy it; or that there is none."""
+    threshold = loop.threshold(128)
+    region = contraction_interval(loop, threshold, 1 / loop.degree_max)
+    if region is None:
+        return (
+            "no gamma and no h gives it on this graph at this alpha: no mu up to 1/Delta_max has sigma <= 2^alpha - 1"
+        )
+    mu = loop.mu(128)
+    low = mu.upper < region.lower
+    target = region.lower * (1 + Fraction(1, 10**8)) if low else region.upper * (1 - Fraction(1, 10**8))
+    if exact_sigma_squared(loop.laplacian, target, 128).upper >= threshold.lower**2:
+        return "search near the interval of mu " + f"[{float(region.lower):.6g}, {float(region.upper):.6g}]"
+    return raise_mu(loop, target) if low else lower_mu(loop, target)

@@ -1,0 +1,74 @@
+"""``verify-design``: the group of commands, and how each way to fail becomes one line and an exit status."""
+
+from __future__ import annotations
+
+import sys
+from importlib import import_module
+from typing import Any
+
+import click
+
+from fomas_verify.exact.errors import FomasError
+
+COMMANDS = {
+    "prove": "decide every claim about a design; write its certificate",
+    "check": "check a certificate with the independent checker",
+    "kernel": "f(j), c_n, partial sums and resolvent, every printed digit right",
+    "report": "LaTeX report of a design, and its PDF where a LaTeX is at hand",
+}
+WRONG_INPUT = 2
+
+
+class LazyGroup(click.Group):
+    """A group that imports a command when it is used, so that starting costs nothing."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """The names, in the order in which a user meets them."""
+        return list(COMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        """The command from its module."""
+        if cmd_name not in COMMANDS:
+            return None
+        command: click.Command = import_module(f"fomas_verify.cli.{cmd_name}").command
+        return command
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """The list of commands, without importing any."""
+        with formatter.section("Commands"):
+            formatter.write_dl(list(COMMANDS.items()))
+
+
+@click.group(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
+@click.version_option(package_name="fomas_verify", prog_name="verify-design")
+def app() -> None:
+    """Decide whether a sampled-data consensus design for fractional-order agents is right.
+
+    \b
+    Example:  verify-design prove examples/paper.toml -o certificate.json
+
+    \b
+    Exit status: 0 required claims proved; 1 one is refuted or inapplicable, or a certificate says
+    something false; 2 wrong input or call; 3 undecided within the work allowed; 4 internal error.
+    """
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run the command line and return the exit status."""
+    try:
+        result: Any = app.main(args=arguments, prog_name="verify-design", standalone_mode=False)
+        return int(result or 0)
+    except click.exceptions.NoArgsIsHelpError as error:
+        click.echo(error.format_message(), err=True)
+        return WRONG_INPUT
+    except click.exceptions.Abort:
+        raise KeyboardInterrupt from None
+    except click.ClickException as error:
+        return _fail(" ".join(error.format_message().split()), WRONG_INPUT)
+    except FomasError as error:
+        return _fail(str(error), error.exit_status)
+
+
+def _fail(message: str, status: int) -> int:
+    sys.stderr.write(f"verify-design: {message}\n")
+    return status

@@ -1,0 +1,37 @@
+"""``verify-design prove``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from fomas_verify.cli.options import design_argument, digits_option
+from fomas_verify.design import read_design
+from fomas_verify.prover import prove
+
+
+@click.command("prove")
+@design_argument
+@click.option("-o", "--output", type=click.Path(path_type=Path), metavar="CERT.json", help="write the certificate")
+@click.option("--horizon", type=click.IntRange(0, 10**9), metavar="K", help="also check (14) term by term, k = 0..K")
+@digits_option
+@click.option("--json", "as_json", is_flag=True, help="print the certificate in place of the table")
+def command(design: Path, output: Path | None, horizon: int | None, digits: int, *, as_json: bool) -> int:
+    """Decide every claim about DESIGN, print the verdicts and write the certificate.
+
+    \b
+    Example:  verify-design prove examples/paper.toml -o certificate.json --horizon 1000
+    """
+    proof = prove(read_design(design), horizon=horizon, digits=digits)
+    if output is not None:
+        from fomas_verify.report.files import write_whole
+
+        write_whole(output, proof.certificate().encode())
+    if as_json:
+        click.echo(proof.certificate(), nl=False)
+    else:
+        from fomas_verify.report.text import proof_text
+
+        click.echo(proof_text(proof))
+    return proof.exit_status

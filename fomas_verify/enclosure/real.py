@@ -1,0 +1,83 @@
+"""Rigorous enclosures of powers, roots and Gamma by ball arithmetic (Arb).
+
+Precision is an argument of every function: the bits of the working precision, set here and restored here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from fractions import Fraction
+from math import isqrt
+
+from flint import arb, ctx, fmpq
+
+from fomas_verify.enclosure.interval import Interval
+
+
+@contextmanager
+def working_precision(bits: int) -> Iterator[None]:
+    """Arb's working precision inside the block; the former one after it."""
+    with ctx.workprec(bits):
+        yield
+
+
+def to_fmpq(x: Fraction) -> fmpq:
+    """The same rational in flint's type."""
+    return fmpq(x.numerator, x.denominator)
+
+
+def exact_end(x: arb) -> Fraction:
+    """The rational that an exact ball is."""
+    mantissa, exponent = x.man_exp()
+    m, e = int(mantissa), int(exponent)
+    return Fraction(m << e) if e >= 0 else Fraction(m, 1 << -e)
+
+
+def to_interval(x: arb) -> Interval:
+    """The ball's ends, rounded outward, as rationals; raises ArithmeticError for a ball that is not finite."""
+    if not x.is_finite():
+        raise ArithmeticError("an enclosure is not finite")
+    return Interval(exact_end(x.lower()), exact_end(x.upper()))
+
+
+def to_ball(x: Interval) -> arb:
+    """A ball that contains the enclosure."""
+    lower = arb(to_fmpq(x.lower))
+    return lower if x.is_exact else lower.union(arb(to_fmpq(x.upper)))
+
+
+def power(base: Fraction, exponent: Fraction, bits: int) -> Interval:
+    """``base^exponent`` for base > 0."""
+    with working_precision(bits):
+        return to_interval(arb(to_fmpq(base)) ** to_fmpq(exponent))
+
+
+def square_root(x: Interval, bits: int) -> Interval:
+    """The square root of a nonnegative number, exact for the square of a rational; a negative lower end, a rounding
+    of 0, is taken as 0.
+    """
+    if x.is_exact and x.lower >= 0:
+        root = Fraction(isqrt(x.lower.numerator), isqrt(x.lower.denominator))
+        if root * root == x.lower:
+            return Interval.exactly(root)
+    with working_precision(bits):
+        return to_interval(to_ball(Interval(max(x.lower, Fraction(0)), max(x.upper, Fraction(0)))).sqrt())
+
+
+def gamma_function(x: Fraction, bits: int) -> Interval:
+    """Gamma(x) for rational x > 0."""
+    with working_precision(bits):
+        return to_interval(arb.gamma_fmpq(to_fmpq(x)))
+
+
+def power_of(base: Interval, exponent: Fraction, bits: int) -> Interval:
+    """``base^exponent`` for an enclosed base > 0."""
+    with working_precision(bits):
+        return to_interval(to_ball(base) ** to_fmpq(exponent))
+
+
+def log2(x: Interval, bits: int) -> Interval:
+    """The binary logarithm of an enclosed x > 0."""
+    with working_precision(bits):
+        return to_interval(to_ball(x).log() / arb(2).log())

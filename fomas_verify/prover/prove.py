@@ -1,0 +1,117 @@
+"""From a design to its verdicts, values and certificate. Meaning of each: docs/semantics.md."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from importlib.metadata import version
+
+from fomas_verify.certificate import certificate_text
+from fomas_verify.claims.registry import CLAIMS, ON_ANY_GRAPH
+from fomas_verify.claims.verdict import Decision, Verdict, inapplicable
+from fomas_verify.design import Design
+from fomas_verify.enclosure.interval import Interval
+from fomas_verify.enclosure.reference import DisagreementError, approx_gain_and_threshold, must_agree
+from fomas_verify.kernel.horizon import Horizon, check_horizon
+from fomas_verify.spectrum.loop import Loop
+
+DEFAULT_DIGITS = 50
+
+
+@dataclass(frozen=True)
+class Proof:
+    """All that was found about a design."""
+
+    design: Design
+    loop: Loop
+    values: Mapping[str, Interval]
+    decisions: Mapping[str, Decision]
+    horizon: Horizon | None
+    digits: int
+
+    @property
+    def exit_status(self) -> int:
+        """0 every required claim is proved, 1 one is refuted or inapplicable, 3 one is undecided."""
+        verdicts = [self.decisions[name].verdict for name in self.design.require]
+        if any(v in (Verdict.REFUTED, Verdict.INAPPLICABLE) for v in verdicts):
+            return 1
+        return 3 if Verdict.UNDECIDED in verdicts else 0
+
+    def certificate(self) -> str:
+        """The certificate's canonical text."""
+        return certificate_text(self.design, self.values, self.decisions, version("fomas_verify"))
+
+
+def prove(design: Design, *, horizon: int | None = None, digits: int = DEFAULT_DIGITS) -> Proof:
+    """Decide every claim about a design.
+
+    Parameters
+    ----------
+    design : Design
+        With mu, or gamma and h.
+    horizon : int, optional
+        Check (14) also at the samples k = 0..horizon, term by term; the design's own horizon by default.
+    digits : int
+        Significant decimal digits of the values, at least 20.
+
+    Returns
+    -------
+    Proof
+        Verdicts and enclosures; rigorous.
+
+    Raises
+    ------
+    DisagreementError
+        Two computations that must agree do not.
+    """
+    design.needs("mu", command="prove")
+    loop = Loop(design)
+    values = enclose_values(loop, digits)
+    _compare_with_mpmath(design, values, digits)
+    decisions = {
+        claim.ID: claim.decide(loop) if loop.assumption1 or claim.ID in ON_ANY_GRAPH else inapplicable()
+        for claim in CLAIMS
+    }
+    samples = design.horizon if horizon is None else horizon
+    seen = None
+    if samples is not None and loop.assumption1:
+        seen = check_horizon(design.alpha, loop.beta(_bits(digits)), samples, digits)
+        _compare_with_closed_form(seen, decisions["memory-inequality"])
+    return Proof(design, loop, values, decisions, seen, digits)
+
+
+def _bits(digits: int) -> int:
+    return int(digits * 3.33) + 32
+
+
+def enclose_values(loop: Loop, digits: int) -> dict[str, Interval]:
+    """The values that exist for the design, to about so many digits; sigma, which costs most, to 35 at most."""
+    bits = _bits(digits)
+    values = {"mu": loop.mu(bits)}
+    if loop.assumption1:
+        values |= {"beta": loop.beta(bits), "sigma": loop.sigma(128), "lambda2": loop.lambda2(bits)}
+    values |= {"threshold": loop.threshold(bits), "degree_max": Interval.exactly(loop.degree_max)}
+    return {name: x.rounded(120 if name == "sigma" else bits - 16) for name, x in values.items()}
+
+
+def _compare_with_mpmath(design: Design, values: Mapping[str, Interval], digits: int) -> None:
+    for name, x in approx_gain_and_threshold(design.alpha, design.h, design.gamma, digits).items():
+        must_agree(name, values[name], x, digits)
+        if name == "mu" and "beta" in values:
+            lambda2 = values["lambda2"].mid
+            slack = values["lambda2"].width * x
+            beta = Interval(values["beta"].lower - slack, values["beta"].upper + slack)
+            must_agree("beta", beta, Fraction(1) - x * lambda2, digits)
+
+
+def _compare_with_closed_form(seen: Horizon, decision: Decision) -> None:
+    """The samples and the closed form must tell the same."""
+    expected = decision.witness.get("k") if decision.verdict is Verdict.REFUTED else None
+    if decision.verdict is Verdict.UNDECIDED or (expected is not None and expected > seen.last):
+        return
+    if seen.first_failure != expected and expected not in seen.not_decided:
+        raise DisagreementError(
+            f"memory-inequality: sample by sample it first fails at k = {seen.first_failure}, "
+            f"by the closed form at k = {expected}"
+        )

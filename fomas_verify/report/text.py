@@ -1,0 +1,163 @@
+"""What was found about a design, for a terminal."""
+
+from __future__ import annotations
+
+import textwrap
+from fractions import Fraction
+
+from fomas_verify.claims.registry import CLAIMS
+from fomas_verify.claims.verdict import Decision, Verdict
+from fomas_verify.design import Design
+from fomas_verify.enclosure.digits import decimal
+from fomas_verify.enclosure.interval import Interval
+from fomas_verify.enclosure.roots import Root
+from fomas_verify.exact.rational import format_rational
+from fomas_verify.prover import Proof
+from fomas_verify.spectrum.stability import mu_star
+
+WIDTH = 120
+DIGITS = 30
+SHOWN_EIGENVALUES = 24
+SHOWN_ENTRIES = 12
+
+NAMES = {
+    "mu": "mu = gamma h^alpha / Gamma(alpha+1)",
+    "beta": "beta = 1 - mu lambda2",
+    "sigma": "sigma = norm of P on 1perp",
+    "lambda2": "lambda2(L_s)",
+    "threshold": "2^alpha - 1",
+    "degree_max": "Delta_max",
+}
+
+
+def proof_text(proof: Proof) -> str:
+    """The verdict table, the values, the spectrum, what a refutation means, and how it ends."""
+    parts = [_heading(proof.design), _verdicts(proof), _values(proof), _spectrum(proof)]
+    if proof.horizon is not None:
+        parts.append(_horizon(proof))
+    parts += [_refutation(claim.ID, proof.decisions[claim.ID]) for claim in CLAIMS if _is_refuted(proof, claim.ID)]
+    parts.append(_ending(proof))
+    return "\n".join(parts)
+
+
+def _is_refuted(proof: Proof, name: str) -> bool:
+    return proof.decisions[name].verdict is Verdict.REFUTED
+
+
+def _heading(design: Design) -> str:
+    numbers = [("alpha", design.alpha), ("gamma", design.gamma), ("mu", design.mu), ("h", design.h)]
+    given = ", ".join(f"{name} = {decimal(Interval.exactly(x), 20)}" for name, x in numbers if x is not None)
+    lines = [f"{design.name}: {given}; {design.graph.agents} agents, {len(design.graph.edges)} edges"]
+    return "\n".join(lines + [f"note: {note}" for note in design.notes]) + "\n"
+
+
+def _verdicts(proof: Proof) -> str:
+    width = max(len(claim.ID) for claim in CLAIMS)
+    lines = []
+    for claim in CLAIMS:
+        decision = proof.decisions[claim.ID]
+        mark = "*" if claim.ID in proof.design.require else " "
+        head = f"{mark} {claim.ID:{width}}  {decision.verdict.value:<12}"
+        lines += textwrap.wrap(head + decision.reason, WIDTH, subsequent_indent=" " * len(head))
+    return "\n".join([*lines, "(* required)"]) + "\n"
+
+
+def _values(proof: Proof) -> str:
+    width = max(map(len, NAMES.values()))
+    return "\n".join(f"  {NAMES[name]:{width}}  {decimal(x, DIGITS)}" for name, x in proof.values.items()) + "\n"
+
+
+def _spectrum(proof: Proof) -> str:
+    """The eigenvalues, and the enclosures of those of P other than 1: Gershgorin's disc, the numerical range, sigma."""
+    loop, bits = proof.loop, 128
+    mu, d = loop.mu(bits), loop.degree_max
+    roots = loop.disagreement_eigenvalues(bits)
+    center, radius = decimal(1 - mu * d, 12), decimal(mu * d, 12)
+    lines = [f"  eigenvalues of L: {listed(zero_and(roots))}"]
+    lines += [f"  eigenvalues of P other than 1: {listed(of_perron(roots, mu))}"]
+    bounds = [f"abs(z - {center}) <= {radius} (Gershgorin)"]
+    if "sigma" in proof.values:
+        bounds += [f"Re z <= beta = {decimal(proof.values['beta'], 12)} (numerical range)"]
+        bounds += [f"abs z <= sigma = {decimal(proof.values['sigma'], 12)}"]
+    lines += [f"  each of these z: {'; '.join(bounds)}"]
+    star = mu_star(loop, bits)
+    lines += [f"  they lie in the open unit disc iff 0 < mu < mu* = {decimal(star, 20) if star else '0 (never)'}"]
+    return (
+        "\n".join("\n".join(textwrap.wrap(x, WIDTH, initial_indent="  ", subsequent_indent="    ")) for x in lines)
+        + "\n"
+    )
+
+
+def zero_and(roots: list[Root]) -> list[Root]:
+    """The eigenvalues of L: 0, of the vector 1, and the others."""
+    return [Root(Interval.exactly(0), Interval.exactly(0), 1), *roots]
+
+
+def of_perron(roots: list[Root], mu: Interval) -> list[Root]:
+    """``1 - mu lambda`` for each."""
+    return [Root(1 - mu * root.real, -(mu * root.imag), root.multiplicity) for root in roots]
+
+
+def listed(roots: list[Root]) -> str:
+    """Eigenvalues in a line, conjugate pairs as one: ``0, 2, 2 +- i, 3``."""
+    shown = [text for root in roots if (text := _eigenvalue(root))]
+    if len(shown) <= SHOWN_EIGENVALUES:
+        return ", ".join(shown)
+    return ", ".join(shown[:SHOWN_EIGENVALUES]) + f", ... ({sum(root.multiplicity for root in roots)} in all)"
+
+
+def _eigenvalue(root: Root) -> str:
+    times = f" ({root.multiplicity} times)" if root.multiplicity > 1 else ""
+    real = decimal(root.real, 12)
+    if root.imag == Interval.exactly(0):
+        return real + times
+    if root.imag.mid < 0:
+        return ""
+    size = decimal(root.imag, 12)
+    return f"{real} +- {'' if size == '1' else size + ' '}i{times}"
+
+
+def _horizon(proof: Proof) -> str:
+    seen = proof.horizon
+    if seen is None:
+        return ""
+    held = "holds at each of them" if seen.first_failure is None else f"first fails at k = {seen.first_failure}"
+    lines = [f"  (14) term by term at k = 0..{seen.last}: {held}; agrees with the closed form"]
+    if seen.not_decided:
+        lines += [f"  equality, decided exactly and not by the sum, at k = {', '.join(map(str, seen.not_decided))}"]
+    smallest = decimal(seen.least_slack, 12)
+    lines += [f"  relative slack 1 - beta^(k+1)/c_(k+1): smallest {smallest} at k = {seen.least_slack_at}"]
+    lines += ["  (the absolute slack c_(k+1) - beta^(k+1) tends to 0 for every design: it says nothing of safety)"]
+    return "\n".join(lines) + "\n"
+
+
+def _refutation(name: str, decision: Decision) -> str:
+    lines = [f"{name} is refuted: {decision.meaning}"]
+    lines += [f"counterexample: {text}" for text in [_counterexample(decision)] if text]
+    lines += [f"remedy: {decision.remedy}"]
+    return (
+        "\n".join("\n".join(textwrap.wrap(x, WIDTH, subsequent_indent="  ", break_on_hyphens=False)) for x in lines)
+        + "\n"
+    )
+
+
+def _counterexample(decision: Decision) -> str:
+    witness = decision.witness
+    if "e" in witness and len(witness["e"]) <= SHOWN_ENTRIES:
+        return f"e = ({', '.join(map(_entry, witness['e']))})"
+    if "unreachable" in witness:
+        source, target = witness["unreachable"]
+        return f"no directed path leads from agent {source} to agent {target}"
+    return ""
+
+
+def _entry(x: Fraction) -> str:
+    return format_rational(x)
+
+
+def _ending(proof: Proof) -> str:
+    required = {name: proof.decisions[name].verdict for name in proof.design.require}
+    if all(verdict is Verdict.PROVED for verdict in required.values()):
+        return f"All {len(required)} required claims are proved."
+    missed = ", ".join(f"{name} {verdict.value}" for name, verdict in required.items() if verdict is not Verdict.PROVED)
+    return f"Not every required claim is proved: {missed}."

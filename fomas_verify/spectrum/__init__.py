@@ -1,0 +1,1 @@
+"""What the closed loop's matrices do: lambda2, sigma, eigenvalues, Lyapunov forms."""

@@ -1,0 +1,161 @@
+"""The closed loop of a design, with every number of it enclosed to the precision asked for.
+
+Notation: L, L_s, D, mu, P = I - mu L, lambda2, beta, sigma, the threshold 2^alpha - 1. Everything is rigorous and
+computed once a precision.
+Source: theory, sections 0 and 3.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cache, cached_property
+
+from fomas_verify.design import Design
+from fomas_verify.enclosure.interval import Interval
+from fomas_verify.enclosure.real import square_root
+from fomas_verify.enclosure.roots import Root, complex_roots, real_roots
+from fomas_verify.exact import matrix as exact
+from fomas_verify.exact.matrix import Matrix
+from fomas_verify.exact.polynomial import Polynomial, integer_characteristic_polynomial, without_zero_root
+from fomas_verify.kernel.memory import one_step_weight, step_response
+from fomas_verify.kernel.memory import threshold as kernel_threshold
+from fomas_verify.network import degree_max, imbalances, laplacian, unreachable_pair
+
+
+@dataclass(frozen=True, eq=False)
+class Loop:
+    """The closed loop of one design."""
+
+    design: Design
+
+    @cached_property
+    def laplacian(self) -> Matrix:
+        """L; row i belongs to agent i, who hears agent j where ``a_ij > 0``."""
+        return exact.matrix(laplacian(self.design.graph))
+
+    @cached_property
+    def symmetric_part(self) -> Matrix:
+        """``L_s = (L + L^T)/2``."""
+        return exact.scaled(self.laplacian + self.laplacian.transpose(), Fraction(1, 2))
+
+    @cached_property
+    def on_differences(self) -> Matrix:
+        """L acting on the differences from the last agent."""
+        return exact.on_differences(self.laplacian)
+
+    @cached_property
+    def degree_max(self) -> Fraction:
+        """D."""
+        return degree_max(self.design.graph)
+
+    @cached_property
+    def assumption1(self) -> bool:
+        """Whether the digraph is strongly connected and balanced; exact."""
+        return unreachable_pair(self.design.graph) is None and not imbalances(self.design.graph)
+
+    @cache  # noqa: B019  a loop lives as long as its run
+    def mu(self, bits: int) -> Interval:
+        """The integrated gain; exact where the design gives it."""
+        design = self.design
+        if design.mu is not None:
+            return Interval.exactly(design.mu)
+        if design.gamma is None or design.h is None:
+            raise TypeError("a closed loop needs mu, or gamma and h")
+        return one_step_weight(design.alpha, design.h, bits) * design.gamma
+
+    @cache  # noqa: B019
+    def threshold(self, bits: int) -> Interval:
+        """``2^alpha - 1``."""
+        return kernel_threshold(self.design.alpha, bits)
+
+    @cache  # noqa: B019
+    def lower_threshold(self, bits: int) -> Interval:
+        """``-sqrt(3^alpha - 2^alpha)``: beta below it breaks (14) at k = 1."""
+        return -square_root(step_response(self.design.alpha, 2, bits), bits)
+
+    @cached_property
+    def _symmetric_characteristic(self) -> tuple[Polynomial, int]:
+        """The characteristic polynomial of L_s on 1perp, its roots scaled by the integer that comes with it."""
+        polynomial, scale = integer_characteristic_polynomial(self.symmetric_part)
+        return without_zero_root(polynomial), scale
+
+    @cached_property
+    def symmetric_characteristic(self) -> Polynomial:
+        """As above without the scale: an integer polynomial whose roots are the eigenvalues of L_s on 1perp times
+        :attr:`symmetric_scale`.
+        """
+        return self._symmetric_characteristic[0]
+
+    @cached_property
+    def symmetric_scale(self) -> int:
+        """The scale of :attr:`symmetric_characteristic`."""
+        return self._symmetric_characteristic[1]
+
+    @cache  # noqa: B019
+    def symmetric_spectrum(self, bits: int) -> list[tuple[Interval, int]]:
+        """The distinct eigenvalues of L_s on 1perp in increasing order, with multiplicities."""
+        roots = real_roots(self.symmetric_characteristic, bits)
+        return [(root / self.symmetric_scale, count) for root, count in roots]
+
+    def lambda2(self, bits: int) -> Interval:
+        """The smallest eigenvalue of L_s on 1perp; exact where it is a multiple of 1/scale."""
+        return self.symmetric_spectrum(bits)[0][0]
+
+    def beta(self, bits: int) -> Interval:
+        """``1 - mu lambda2``."""
+        return 1 - self.mu(bits) * self.lambda2(bits)
+
+    @cache  # noqa: B019
+    def sigma(self, bits: int) -> Interval:
+        """The norm of P on 1perp, from the exact singular values at a rational mu inside the enclosure.
+
+        ``abs(sigma(mu) - sigma(m)) <= abs(mu - m) norm(L) <= 2 D abs(mu - m)``.
+        """
+        mu = self.mu(bits)
+        middle = mu.rounded(bits).mid
+        square = exact_sigma_squared(self.laplacian, middle, 2 * bits)
+        slack = 2 * self.degree_max * max(mu.upper - middle, middle - mu.lower)
+        sigma = square_root(square, 2 * bits)
+        return Interval(max(Fraction(0), sigma.lower - slack), sigma.upper + slack)
+
+    @cache  # noqa: B019
+    def disagreement_eigenvalues(self, bits: int) -> list[Root]:
+        """The eigenvalues of L other than the one 0 of the vector 1, distinct, with multiplicities."""
+        polynomial, scale = integer_characteristic_polynomial(self.on_differences)
+        return [Root(r.real / scale, r.imag / scale, r.multiplicity) for r in complex_roots(polynomial, bits)]
+
+    def mu_star(self, bits: int) -> Interval | None:
+        """``min 2 Re(lambda)/abs(lambda)^2`` over these eigenvalues: P is Schur on the differences iff 0 < mu < mu*.
+
+        None where one of them may be 0 (then no mu will do).
+        """
+        bounds = []
+        for root in self.disagreement_eigenvalues(bits):
+            square = modulus_squared(root.real, root.imag)
+            if square.lower <= 0:
+                return None
+            bounds.append(root.real * 2 / square)
+        return Interval(min(b.lower for b in bounds), min(b.upper for b in bounds))
+
+
+def modulus_squared(real: Interval, imag: Interval) -> Interval:
+    """``real^2 + imag^2``, at least 0."""
+    square = real * real + imag * imag
+    return Interval(max(square.lower, Fraction(0)), square.upper)
+
+
+def gram(laplacian: Matrix, mu: Fraction) -> Matrix:
+    """``P^T P - J`` at a rational mu: its eigenvalues are the squared singular values of P on 1perp, and 0."""
+    n = laplacian.nrows()
+    p = exact.identity(n) - exact.scaled(laplacian, mu)
+    return p.transpose() * p - exact.scaled(exact.all_ones(n), Fraction(1, n))
+
+
+def exact_sigma_squared(laplacian: Matrix, mu: Fraction, bits: int) -> Interval:
+    """The square of the largest singular value of ``I - mu L`` on 1perp, for a balanced graph and a rational mu.
+
+    It is the largest eigenvalue of ``P^T P - J``, since P and P^T keep the vector 1.
+    """
+    polynomial, scale = integer_characteristic_polynomial(gram(laplacian, mu))
+    return real_roots(polynomial, bits)[-1][0] / scale
