@@ -15,6 +15,7 @@ COMMANDS = {
     "check": "check a certificate with the independent checker",
     "kernel": "f(j), c_n, partial sums and resolvent, every printed digit right",
     "report": "LaTeX report of a design, and its PDF where a LaTeX is at hand",
+    "selftest": "known answers of every primitive, proved again",
 }
 WRONG_INPUT = 2
 

@@ -1,0 +1,132 @@
+"""Enclosures of powers, square roots and Gamma(1 + alpha), in integers rounded outward.
+
+A fixed-point number is an integer n that stands for n / 2^w. Every series here has positive terms, so the whole error
+analysis is the direction of each division, and a bound of what comes after the last term.
+Source: theory, section "Findings"; gamma(z, T) = T^z e^-T sum_{k>=0} T^k / (z (z+1) ... (z+k)), DLMF 8.7.1.
+"""
+
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import lru_cache
+from math import isqrt
+
+_GUARD = 64
+
+
+@dataclass(frozen=True)
+class Enclosure:
+    """A real number x with lower <= x <= upper."""
+
+    lower: Fraction
+    upper: Fraction
+
+
+def point(x: Fraction) -> Enclosure:
+    """The enclosure of a rational by itself."""
+    return Enclosure(x, x)
+
+
+@lru_cache(maxsize=64)
+def power(base: Fraction, exponent: Fraction, bits: int) -> Enclosure:
+    """base^exponent for rational base > 0 and 0 < exponent < 1, to a relative width of about 2^-bits. Rigorous."""
+    w = bits + _GUARD
+    lower, upper = _log(base, w)
+    p, q = exponent.numerator, exponent.denominator
+    return outward(_exp(_div(lower * p, q, False), w, False), _exp(_div(upper * p, q, True), w, True), bits)
+
+
+@lru_cache(maxsize=64)
+def gamma_one_plus(alpha: Fraction, bits: int) -> Enclosure:
+    """Gamma(1 + alpha) for rational 0 < alpha < 1, to a relative width of about 2^-bits. Rigorous."""
+    w = bits + _GUARD
+    p, q = alpha.numerator, alpha.denominator
+    t = w * 7 // 10 + 1
+    log_t = _log(Fraction(t), w)
+    ends = []
+    for up in (False, True):
+        factor = _exp(_div(log_t[up] * (p + q), q, up) - (t << w), w, up)
+        ends.append(factor * Fraction(_incomplete_series(p, q, t, w, up), 1 << w))
+    # With z = 1 + alpha <= 2 and s >= T >= 1, s^(z-1) <= s, so Gamma(z, T) <= int_T^oo s e^-s ds = (T + 1) e^-T;
+    # and e > 2^(36/25).
+    tail = Fraction(t + 1, 1 << (t * 36 // 25))
+    return outward(ends[0], ends[1] + tail, bits)
+
+
+def square_root(x: Enclosure, bits: int) -> Enclosure:
+    """The square root of a number >= 0, to an absolute width of 2^-bits where x is a point. Rigorous."""
+    lower = isqrt((max(x.lower.numerator, 0) << 2 * bits) // x.lower.denominator)
+    upper = isqrt((x.upper.numerator << 2 * bits) // x.upper.denominator) + 1
+    return Enclosure(Fraction(lower, 1 << bits), Fraction(upper, 1 << bits))
+
+
+def outward(lower: Fraction, upper: Fraction, bits: int) -> Enclosure:
+    """An enclosure of [lower, upper], both > 0, its ends of bits + 8 bits: short numbers make short matrices."""
+    ends = []
+    for x, up in ((lower, False), (upper, True)):
+        scale = Fraction(2) ** (bits + 8 + x.denominator.bit_length() - x.numerator.bit_length())
+        scaled = x * scale
+        ends.append(_div(scaled.numerator, scaled.denominator, up) / scale)
+    return Enclosure(ends[0], ends[1])
+
+
+def quotient(x: Enclosure, y: Enclosure) -> Enclosure:
+    """x / y for y > 0. Rigorous."""
+    lower = x.lower / (y.upper if x.lower >= 0 else y.lower)
+    return Enclosure(lower, x.upper / (y.lower if x.upper >= 0 else y.upper))
+
+
+def _div(a: int, b: int, up: bool) -> int:
+    """a / b rounded to an integer, up or down; b > 0."""
+    return -(-a // b) if up else a // b
+
+
+@lru_cache(maxsize=64)
+def _log(x: Fraction, w: int) -> tuple[int, int]:
+    """Bounds of log x, x > 0: with x = 2^e m, 1 <= m < 2, log x = e log 2 + 2 atanh((m - 1)/(m + 1))."""
+    e = x.numerator.bit_length() - x.denominator.bit_length()
+    e -= x < Fraction(2) ** e
+    m = x / Fraction(2) ** e
+    z = (m - 1) / (m + 1)
+    two = tuple(2 * _atanh(Fraction(1, 3), w, up) for up in (False, True))
+    return (e * two[e < 0] + 2 * _atanh(z, w, False), e * two[e >= 0] + 2 * _atanh(z, w, True))
+
+
+def _atanh(z: Fraction, w: int, up: bool) -> int:
+    """A bound of atanh z = sum z^(2j+1)/(2j+1) for 0 <= z <= 1/3."""
+    term = _div(z.numerator << w, z.denominator, up)
+    square = _div(term * term, 1 << w, up)
+    total, odd = 0, 1
+    while term > 1:
+        total += _div(term, odd, up)
+        term = _div(term * square, 1 << w, up)
+        odd += 2
+    # What is left out is at most term (1 + z^2 + z^4 + ...) <= 9/8 term, and at least 0.
+    return total + 2 * term if up else total
+
+
+def _exp(x: int, w: int, up: bool) -> Fraction:
+    """A bound of e^(x / 2^w) = 2^n e^r with r = x - n log 2, where n is such that every bound of r is >= 0."""
+    low, high = _log(Fraction(2), w)
+    n, r = divmod(x, high if x >= 0 else low)
+    if up:
+        r += abs(n) * (high - low)
+    term, total, k = 1 << w, 0, 1
+    while term > 1:
+        total += term
+        term = _div(term * r, k << w, up)
+        k += 1
+    # r <= 1: the terms from here on are at most term (1 + 1/k + 1/k^2 + ...) <= 2 term, as k >= 2.
+    return Fraction(total + 2 * term if up else total) * Fraction(2) ** (n - w)
+
+
+def _incomplete_series(p: int, q: int, t: int, w: int, up: bool) -> int:
+    """A bound of sum_{k>=0} t^k / (z (z+1) ... (z+k)) for z = 1 + p/q."""
+    below = p + q
+    term = _div(q << w, below, up)
+    total = 0
+    # From a ratio t/(z+k) <= 1/2 of neighbours on, what follows a term is at most that term.
+    while below < 2 * t * q or term > total >> w:
+        total += term
+        below += q
+        term = _div(term * t * q, below, up)
+    return total + 2 * term if up else total

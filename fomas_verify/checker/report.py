@@ -1,0 +1,142 @@
+"""The checker's answer to a certificate: an outcome for each value and claim, and an exit status.
+
+Source: docs/certificate-format.md, section 6.
+"""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import Literal, TypeVar
+
+from fomas_verify.checker.claims import require_claim
+from fomas_verify.checker.document import Bounds, Claim, Design, Document, read_document
+from fomas_verify.checker.facts import Facts
+from fomas_verify.checker.graph import Graph
+from fomas_verify.checker.ruling import Refused, Undecided
+from fomas_verify.checker.values import require_bounds
+
+MAX_AGENTS = 2000
+
+Status = Literal["accepted", "refused", "undecided"]
+Said = TypeVar("Said", Bounds, Claim)
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What the checker says of one value or claim.
+
+    Attributes
+    ----------
+    kind : which of the two it is
+    id : the value's key or the claim's id
+    verdict : the certificate's verdict on a claim, None for a value
+    status : `accepted` if it is true and seen to be, `refused` if it is false or not shown by its witness, `undecided`
+        if that took more than the work allowed
+    reason : in words
+    """
+
+    kind: Literal["value", "claim"]
+    id: str
+    verdict: str | None
+    status: Status
+    reason: str
+
+
+@dataclass(frozen=True)
+class Shortfall:
+    """A required claim that the certificate does not prove, why, and the exit status (1 or 3) that this calls for."""
+
+    id: str
+    reason: str
+    exit_status: int
+
+
+@dataclass(frozen=True)
+class Report:
+    """What the checker says of a certificate.
+
+    Attributes
+    ----------
+    design : the design that the certificate is about, in exact rationals and sorted edges
+    outcomes : one for each value and each claim, in the file's order
+    """
+
+    design: Design
+    outcomes: tuple[Outcome, ...]
+
+    @property
+    def exit_status(self) -> int:
+        """1 if anything was refused, else 3 if anything was undecided, else 0."""
+        found = {outcome.status for outcome in self.outcomes}
+        return 1 if "refused" in found else 3 if "undecided" in found else 0
+
+    @property
+    def verdicts(self) -> dict[str, str]:
+        """The verdicts of the accepted claims."""
+        return {
+            outcome.id: outcome.verdict
+            for outcome in self.outcomes
+            if outcome.verdict is not None and outcome.status == "accepted"
+        }
+
+    def shortfalls(self, required: Iterable[str]) -> tuple[Shortfall, ...]:
+        """Those of the required claims that are not accepted as proved."""
+        claims = {outcome.id: outcome for outcome in self.outcomes if outcome.kind == "claim"}
+        return tuple(
+            shortfall
+            for shortfall in (_shortfall(name, claims.get(name)) for name in required)
+            if shortfall is not None
+        )
+
+
+def _shortfall(name: str, outcome: Outcome | None) -> Shortfall | None:
+    if outcome is None:
+        return Shortfall(name, "absent from the certificate", 1)
+    if outcome.status != "accepted":
+        return Shortfall(name, f"{outcome.status} by the checker", 1 if outcome.status == "refused" else 3)
+    if outcome.verdict == "proved":
+        return None
+    return Shortfall(name, f"{outcome.verdict}", 3 if outcome.verdict == "undecided" else 1)
+
+
+def check(document_bytes: bytes) -> Report:
+    """Decide whether a certificate is true.
+
+    Everything in it is decided anew, in exact or outward-rounded integer arithmetic; rigorous.
+
+    Parameters
+    ----------
+    document_bytes : the certificate as it stands in its file
+
+    Returns
+    -------
+    Report
+        An outcome for each value and claim.
+
+    Raises
+    ------
+    Malformed
+        If the bytes are not a certificate of this format.
+    """
+    document = read_document(document_bytes)
+    facts = Facts(document.design, Graph(document.design))
+    return Report(document.design, tuple(_outcomes(facts, document)))
+
+
+def _outcomes(facts: Facts, document: Document) -> Iterable[Outcome]:
+    for bounds in document.values:
+        status, reason = _ruled(facts, require_bounds, bounds)
+        yield Outcome("value", bounds.name, None, status, reason)
+    for claim in document.claims:
+        status, reason = _ruled(facts, require_claim, claim)
+        yield Outcome("claim", claim.id, claim.verdict, status, reason)
+
+
+def _ruled(facts: Facts, test: Callable[[Facts, Said], str], said: Said) -> tuple[Status, str]:
+    if facts.design.agents > MAX_AGENTS:
+        return "undecided", f"more than {MAX_AGENTS} agents are beyond this checker"
+    try:
+        return "accepted", test(facts, said)
+    except Refused as refusal:
+        return "refused", str(refusal)
+    except Undecided as limit:
+        return "undecided", str(limit)

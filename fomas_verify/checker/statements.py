@@ -1,0 +1,21 @@
+"""The claims a certificate can make, and what each says, to the letter.
+
+Source: docs/certificate-format.md, section 4.
+"""
+
+STATEMENTS: dict[str, str] = {
+    "graph-assumption": "the digraph is strongly connected and balanced (Assumption 1)",
+    "gain-bound": "0 < mu < 1/Delta_max (gain bound (15) [eqh])",
+    "memory-inequality": "beta^(k+1) + sum_{l=1}^{k+1} abs f(l) <= 1 for every k >= 0 (inequality (14) [eqT2])",
+    "perron-eigenvalues": "1 is a simple eigenvalue of P and every other eigenvalue of P lies in the open unit disc",
+    "beta-contraction": "norm of P e <= beta norm of e for every e that sums to 0 (step of the proof of Theorem 1)",
+    "repaired-condition": ("norm of P e <= (2^alpha - 1) norm of e for every e that sums to 0 (sigma <= 2^alpha - 1)"),
+    "control-bounded": "for every x_0, norm u_k is bounded over k and u_k tends to 0",
+    "average-consensus": "for every x_0 and every i, x_i(t) tends to the mean of x_0 as t tends to infinity",
+}
+
+ANY_GRAPH = frozenset({"graph-assumption", "gain-bound", "perron-eigenvalues"})
+"""The claims that are statements about every graph; the others presuppose Assumption 1."""
+
+VERDICTS = ("proved", "refuted", "undecided", "inapplicable")
+VALUES = ("mu", "threshold", "degree_max", "lambda2", "beta", "sigma")
