@@ -1,0 +1,100 @@
+"""A file is written whole or not at all, and what cannot be written is said in one line."""
+
+import os
+import stat
+from pathlib import Path
+
+import pytest
+
+from fomas_verify.exact.errors import FomasError
+from fomas_verify.report.files import OutputError, make_folder, write_all, write_whole
+
+
+def names(folder: Path) -> list[str]:
+    return sorted(path.name for path in folder.iterdir())
+
+
+def test_writes_and_replaces(tmp_path: Path) -> None:
+    file = tmp_path / "a.txt"
+    for content in (b"one", b"", b"two\x00\xff"):
+        write_whole(file, content)
+        assert file.read_bytes() == content
+    assert names(tmp_path) == ["a.txt"]
+
+
+def test_permissions_are_those_of_any_new_file(tmp_path: Path) -> None:
+    write_whole(tmp_path / "ours", b"")
+    (tmp_path / "plain").write_bytes(b"")
+    assert stat.S_IMODE((tmp_path / "ours").stat().st_mode) == stat.S_IMODE((tmp_path / "plain").stat().st_mode)
+
+
+def test_follows_a_symbolic_link(tmp_path: Path) -> None:
+    (tmp_path / "target").write_bytes(b"old")
+    (tmp_path / "link").symlink_to("target")
+    write_whole(tmp_path / "link", b"new")
+    assert (tmp_path / "link").is_symlink()
+    assert (tmp_path / "target").read_bytes() == b"new"
+
+
+def test_writes_through_what_is_no_regular_file(tmp_path: Path) -> None:
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    reader = os.open(pipe, os.O_RDONLY | os.O_NONBLOCK)
+    try:
+        write_whole(pipe, b"through")
+        assert os.read(reader, 100) == b"through"
+    finally:
+        os.close(reader)
+    assert names(tmp_path) == ["pipe"]
+    assert stat.S_ISFIFO(pipe.stat().st_mode)
+
+
+@pytest.mark.parametrize("where", ["missing/a", "folder", "file/a", "x" * 300, "nul\0"])
+def test_refuses_in_one_line_and_leaves_nothing(tmp_path: Path, where: str) -> None:
+    (tmp_path / "folder").mkdir()
+    (tmp_path / "file").write_bytes(b"kept")
+    with pytest.raises(OutputError, match="cannot write") as refusal:
+        write_whole(tmp_path / where, b"data")
+    assert isinstance(refusal.value, FomasError)
+    assert refusal.value.exit_status == 2
+    assert "\n" not in str(refusal.value)
+    assert names(tmp_path) == ["file", "folder"]
+    assert names(tmp_path / "folder") == []
+    assert (tmp_path / "file").read_bytes() == b"kept"
+
+
+def test_one_refusal_keeps_the_others_from_being_written(tmp_path: Path) -> None:
+    (tmp_path / "first").write_bytes(b"old")
+    with pytest.raises(OutputError, match="second"):
+        write_all({tmp_path / "first": b"new", tmp_path / "missing" / "second": b"new"})
+    assert (tmp_path / "first").read_bytes() == b"old"
+    assert names(tmp_path) == ["first"]
+
+
+def test_an_interruption_leaves_the_former_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    file = tmp_path / "a"
+    file.write_bytes(b"old")
+
+    def interrupted(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(Path, "replace", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        write_whole(file, b"new")
+    assert file.read_bytes() == b"old"
+    assert names(tmp_path) == ["a"]
+
+
+def test_a_full_device_is_refused() -> None:
+    full = Path("/dev/full")
+    if not full.exists():
+        pytest.skip("this system has no /dev/full")
+    with pytest.raises(OutputError, match="/dev/full: cannot write: No space left"):
+        write_whole(full, b"x" * 10)
+    assert stat.S_ISCHR(full.stat().st_mode)
+
+
+def test_a_folder_under_a_file_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "file").write_bytes(b"")
+    with pytest.raises(OutputError, match="file/sub: cannot write: Not a directory"):
+        make_folder(tmp_path / "file" / "sub")
