@@ -3,7 +3,7 @@
 By telescoping and log-convexity of c_n it holds for every k iff ``-sqrt(c_2) <= beta <= c_1``, with ``c_1 = 2^alpha
 - 1`` and ``c_2 = 3^alpha - 2^alpha`` (theory, section 2). Equality on the left never happens, on the right with a
 rational mu
-only at alpha = 1/2 (docs/semantics.md), where it is decided exactly.
+only at alpha = 1/2 (theory, section 7), where it is decided exactly.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """``sigma <= 2^alpha - 1``: the repaired Theorem 1's condition, for which norm u_k <= norm u_0 for every k and every
 x_0.
 
-Equality never happens for a rational mu (docs/semantics.md). Source: theory, section 3, "Repaired Theorem 1".
+Equality never happens for a rational mu (theory, section 7). Source: theory, section 3, "Repaired Theorem 1".
 """
 
 from __future__ import annotations

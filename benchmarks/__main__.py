@@ -1,0 +1,91 @@
+"""All benchmarks in one run: a line each, with the ratio that matters and what it should be."""
+
+import json
+import random
+import tempfile
+from collections.abc import Iterator
+from fractions import Fraction
+from pathlib import Path
+
+from benchmarks.measure import Cost, run, typical
+
+PAPER = "examples/paper.toml"
+TOOL = ["-m", "fomas_verify"]
+SAMPLES = 1_000_000
+
+
+def weighted_digraph(agents: int, cycles: int, seed: int) -> dict[str, object]:
+    """A design on a balanced digraph: a sum of weighted random cycles through all agents."""
+    source = random.Random(seed)
+    weights: dict[tuple[int, int], Fraction] = {}
+    for _ in range(cycles):
+        order = source.sample(range(1, agents + 1), agents)
+        weight = Fraction(source.randrange(1, 100), 10)
+        for edge in zip(order, order[1:] + order[:1], strict=True):
+            weights[edge] = weights.get(edge, Fraction(0)) + weight
+    edges = [[*edge, str(weight)] for edge, weight in sorted(weights.items())]
+    return {"alpha": "0.9", "gamma": "0.025", "h": "0.85", "graph": {"agents": agents, "edges": edges}}
+
+
+def line(name: str, figure: str, goal: str) -> str:
+    """A row of the table."""
+    return f"{name:<58} {figure:<34} {goal}"
+
+
+def rows(folder: Path) -> Iterator[str]:
+    """Each measurement as it is made."""
+    yield from paper_rows(folder)
+    yield from sixty_agents(folder)
+    yield from horizon_rows()
+
+
+def paper_rows(folder: Path) -> Iterator[str]:
+    """The paper's design: starting and proving against importing a solver, and checking."""
+    certificate = str(folder / "paper.json")
+    prove = typical([*TOOL, "prove", PAPER, "-o", certificate])
+    solver = typical(["-c", "import cvxpy"], times=3)
+    yield line("prove paper / import cvxpy, CPU", ratio(prove.cpu, solver.cpu), "below 1/4")
+    check = typical(["-I", "-S", "fomas_verify/checker", certificate])
+    yield line("check paper (standard library alone), wall", f"{check.wall:.3f} s", "below 0.2 s")
+    yield line("check paper / prove paper, CPU", ratio(check.cpu, prove.cpu), "")
+
+
+def sixty_agents(folder: Path) -> Iterator[str]:
+    """N = 60: 60 agents on a weighted balanced digraph."""
+    design, certificate = folder / "sixty.json", str(folder / "sixty.certificate.json")
+    design.write_text(json.dumps(weighted_digraph(60, 3, 1)))
+    prove = typical([*TOOL, "prove", str(design), "-o", certificate], times=3, accepted=(0, 1))
+    yield line("prove N = 60, wall", f"{prove.wall:.2f} s", "below 3 s")
+    check = typical(["-I", "-S", "fomas_verify/checker", certificate], times=3)
+    yield line("check N = 60, wall", f"{check.wall:.2f} s", "below 3 s")
+
+
+def horizon_rows() -> Iterator[str]:
+    """(14) term by term to a horizon, against the same loop in plain mpmath."""
+    baseline = run(["-m", "benchmarks.baseline_mpmath", str(SAMPLES)])
+    prove = [horizon(SAMPLES // 100), horizon(SAMPLES)]
+    yield line(f"mpmath loop / prove, --horizon {SAMPLES}, CPU", ratio(baseline.cpu, prove[1].cpu), "at least 10")
+    memory = f"{prove[0].memory:.0f} MB, {prove[1].memory:.0f} MB"
+    yield line(f"memory of prove, --horizon {SAMPLES // 100} and {SAMPLES}", memory, "flat, below 150 MB")
+
+
+def horizon(last: int) -> Cost:
+    """The cost of proving the paper's design with a horizon."""
+    return run([*TOOL, "prove", PAPER, "--horizon", str(last)])
+
+
+def ratio(numerator: float, denominator: float) -> str:
+    """Both seconds and their quotient."""
+    return f"{numerator:.2f} s / {denominator:.2f} s = {numerator / denominator:.3g}"
+
+
+def main() -> None:
+    """Run and print."""
+    print(line("measured (medians, one process at a time)", "figure", "goal"))
+    with tempfile.TemporaryDirectory() as folder:
+        for row in rows(Path(folder)):
+            print(row, flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,1 @@
+"""The standing attack on prover and checker: oracle, designs, mutants; shares no code with either."""

@@ -1,0 +1,82 @@
+"""The attack at any size: `python -m tests.attack --mutants 100000 --designs 10000`.
+
+Prints the figures and exits 1 if a false certificate was accepted, a verdict was wrong, fewer than 95 % of the true
+mutants were accepted, or 1 % of the verdicts or more were left undecided.
+"""
+
+from __future__ import annotations
+
+import argparse
+import multiprocessing
+import sys
+from collections import Counter
+from functools import partial
+
+from .designs import NAMED
+from .differential import Comparison, compare
+from .duel import Score, duel, unacceptable
+from .handmade import certificate
+from .mutants import mutants
+from .oracle import CLAIMS
+from .strata import design_at
+
+CHUNK = 250
+
+
+def _designs(seed: int, index: int) -> Comparison:
+    return compare(*design_at(seed, index))
+
+
+def _mutants(golden: dict[str, bytes], seed: int, count: int, start: int) -> Score:
+    return duel(mutants(golden, seed, min(CHUNK, count - start), start))
+
+
+def _golden() -> dict[str, bytes]:
+    named = {name: compare(name, design).certificate for name, design in NAMED.items()}
+    handmade = {f"{name}, by hand": certificate(design) for name, design in NAMED.items()}
+    return {name: data for name, data in {**named, **handmade}.items() if data}
+
+
+def attack_prover(pool: multiprocessing.pool.Pool, seed: int, count: int) -> bool:
+    """Random designs through prover, checker and oracle; whether all is well."""
+    faults, undecided = [], 0
+    for comparison in pool.imap_unordered(partial(_designs, seed), range(count), chunksize=4):
+        undecided += comparison.undecided
+        faults += [f"{comparison.name}: {fault}\n  {comparison.design}" for fault in comparison.faults]
+    print(*faults, sep="\n")
+    share = undecided / (len(CLAIMS) * count)
+    print(f"designs: {count}, disagreements: {len(faults)}, undecided claims: {undecided} ({share:.3%})")
+    return not faults and share < 0.01
+
+
+def attack_checker(pool: multiprocessing.pool.Pool, seed: int, count: int) -> bool:
+    """Mutants of golden certificates; whether all is well."""
+    total = Score(Counter())
+    for score in pool.imap_unordered(partial(_mutants, _golden(), seed, count), range(0, count, CHUNK)):
+        total.add(score)
+    faults = unacceptable(total)
+    print(*faults, sep="\n")
+    for word in ("true", "false", "malformed", "unknown"):
+        print(f"{word} mutants: {total.total(word)}, accepted: {total.accepted(word)}")
+    for word, status, mutant in total.wrong:
+        if word == "true":
+            print(f"true, but answered {status}: {mutant.label}")
+    return not faults and total.accepted("true") >= 0.95 * total.total("true")
+
+
+def main(arguments: list[str]) -> int:
+    """Run the attack; 0 if prover and checker stood it."""
+    parser = argparse.ArgumentParser(prog="python -m tests.attack", description=__doc__)
+    parser.add_argument("--mutants", type=int, default=2000)
+    parser.add_argument("--designs", type=int, default=300)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--jobs", type=int, default=multiprocessing.cpu_count())
+    given = parser.parse_args(arguments)
+    with multiprocessing.Pool(given.jobs) as pool:
+        well = [attack_prover(pool, given.seed, given.designs)] if given.designs else []
+        well += [attack_checker(pool, given.seed, given.mutants)] if given.mutants else []
+    return 0 if all(well) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

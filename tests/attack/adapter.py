@@ -1,0 +1,77 @@
+"""The only door from the attack to prover and checker: their command line, and the checker's one function.
+
+`prove` runs `verify-design prove` on a design file; `check_status` asks the checker in this process, and
+`command_line_status` in a process of its own.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+@dataclass(frozen=True)
+class Proof:
+    """What a run of `prove` gave: exit status, certificate (empty if none was written), standard error."""
+
+    status: int
+    certificate: bytes
+    errors: str
+
+
+def _run(arguments: list[str]) -> subprocess.CompletedProcess[str]:
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    return subprocess.run(
+        [sys.executable, *arguments], capture_output=True, text=True, check=False, env=environment, timeout=600
+    )
+
+
+def prove(design: dict[str, object]) -> Proof:
+    """Run `verify-design prove` on a design."""
+    with tempfile.TemporaryDirectory() as folder:
+        source, target = Path(folder, "design.json"), Path(folder, "certificate.json")
+        source.write_text(json.dumps(design), encoding="utf-8")
+        run = _run(["-m", "fomas_verify", "prove", str(source), "-o", str(target)])
+        return Proof(run.returncode, target.read_bytes() if target.exists() else b"", run.stderr)
+
+
+def prove_json(design: dict[str, object]) -> bytes:
+    """The certificate that `prove` writes for a design.
+
+    Raises
+    ------
+    RuntimeError
+        When no certificate was written.
+    """
+    proof = prove(design)
+    if not proof.certificate:
+        raise RuntimeError(f"prove exited {proof.status} without a certificate: {proof.errors}")
+    return proof.certificate
+
+
+def check_status(certificate: bytes) -> int:
+    """The exit status `check` deserves on these bytes; 4 where the checker raises what it must not."""
+    from fomas_verify.checker import Malformed, check
+
+    try:
+        return int(check(certificate).exit_status)
+    except Malformed:
+        return 2
+    except Exception:
+        return 4
+
+
+def command_line_status(certificate: bytes) -> tuple[int, str]:
+    """Exit status and output of `python -I -S fomas_verify/checker FILE`."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder, "certificate.json")
+        path.write_bytes(certificate)
+        run = _run(["-I", "-S", str(ROOT / "fomas_verify" / "checker"), str(path)])
+        return run.returncode, run.stdout + run.stderr

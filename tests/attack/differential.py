@@ -1,0 +1,81 @@
+"""Prover, checker and oracle on one design: what they disagree on.
+
+The prover must give the oracle's verdict for each claim, values that hold the oracle's numbers within the widths
+promised, the design it was given, and the exit status that the six required claims call for; its certificate must be
+true and accepted.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from . import oracle
+from .adapter import check_status, prove
+from .form import Document, read
+from .model import Design, assumption_1
+from .truth import GRAPH_VALUES, bound_holds, judge
+
+WIDTHS = {"mu": 30, "beta": 30, "threshold": 30, "lambda2": 30, "sigma": 12}
+REQUIRED = tuple(claim for claim in oracle.CLAIMS if claim not in ("beta-contraction", "repaired-condition"))
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """What was wrong on one design, and how many of its claims were left undecided."""
+
+    name: str
+    design: Design
+    faults: tuple[str, ...]
+    undecided: int
+    certificate: bytes
+
+
+def _verdict_faults(document: Document, design: Design) -> tuple[list[str], int]:
+    given = {claim.id: claim.verdict for claim in document.claims}
+    faults = [f"{claim}: no such claim" for claim in oracle.CLAIMS if claim not in given]
+    undecided = 0
+    for claim, word in given.items():
+        truth = oracle.verdict(design, claim)
+        if word == "undecided":
+            undecided += 1
+        elif truth is not None and word != truth:
+            faults.append(f"{claim}: prover {word}, oracle {truth}")
+    return faults, undecided
+
+
+def _value_faults(document: Document, design: Design) -> list[str]:
+    expected = {"mu", "threshold", "degree_max"} | (set(GRAPH_VALUES) if assumption_1(design) else set())
+    faults = [f"{key}: present or absent against the contract" for key in expected ^ set(document.values)]
+    for key, (lower, upper) in document.values.items():
+        if key in GRAPH_VALUES and not assumption_1(design):
+            continue
+        if bound_holds(design, key, lower, False) is False or bound_holds(design, key, upper, True) is False:
+            faults.append(f"{key}: the oracle's number lies outside")
+        if upper - lower >= Fraction(1, 10 ** WIDTHS.get(key, 400)) and upper != lower:
+            faults.append(f"{key}: wider than 1e-{WIDTHS.get(key)}")
+    return faults
+
+
+def _status_fault(document: Document, status: int) -> list[str]:
+    words = {claim.verdict for claim in document.claims if claim.id in REQUIRED}
+    expected = 1 if words & {"refuted", "inapplicable"} else 3 if "undecided" in words else 0
+    return [] if status == expected else [f"prove exited {status}, expected {expected}"]
+
+
+def compare(name: str, design: Design) -> Comparison:
+    """Run one design through prover, checker and oracle."""
+    proof = prove(design.mapping(name))
+    if not proof.certificate:
+        return Comparison(name, design, (f"prove exited {proof.status}: {proof.errors.strip()}",), 0, b"")
+    document = read(proof.certificate)
+    faults, undecided = _verdict_faults(document, design)
+    faults += _value_faults(document, design) + _status_fault(document, proof.status)
+    if document.design != design:
+        faults.append(f"the certificate is about another design: {document.design}")
+    judgement = judge(proof.certificate)
+    if judgement.word not in ("true", "unknown"):
+        faults.append(f"the certificate is {judgement.word}: {judgement.reason}")
+    if (status := check_status(proof.certificate)) != 0:
+        faults.append(f"check exited {status}")
+    return Comparison(name, design, tuple(faults), undecided, proof.certificate)

@@ -1,0 +1,240 @@
+"""Certificates made by the oracle and by search in many digits, without the prover: a second source for the checker.
+
+Bounds are the oracle's numbers rounded outward to 36 digits. Witnesses come from mpmath and sympy, are rounded to
+dyadic rationals, and stand in the certificate only if `truth` finds that they show their claim. Source: sections 3 and
+4 of docs/certificate-format.md; docs/theory section 3 for the forms Q and Y.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from fractions import Fraction
+from typing import Any
+
+from mpmath import mp
+
+from . import oracle, ties
+from .digits import ratio
+from .exact import Matrix, charpoly, matmul, transpose
+from .form import STATEMENTS, Claim
+from .model import (
+    Design,
+    adjacency,
+    assumption_1,
+    degree_max,
+    in_and_out,
+    laplacian,
+    perron_on_differences,
+    reachability,
+    symmetric_part,
+)
+from .strict_json import Num, Obj, dumps
+from .truth import GRAPH_VALUES, _shown
+
+DIGITS = 36
+NUMBERS: dict[str, Any] = {
+    "mu": oracle.mu,
+    "threshold": oracle.threshold,
+    "lambda2": oracle.lambda2,
+    "beta": oracle.beta,
+    "sigma": oracle.sigma,
+}
+
+
+def outward(x: Any, steps: int = 1) -> tuple[Fraction, Fraction]:
+    """A rational interval around an mpf, about 10^-36 wide for each step."""
+    with mp.workdps(90):
+        below = int(mp.floor(x * mp.mpf(10) ** DIGITS))
+    return Fraction(below - steps, 10**DIGITS), Fraction(below + 1 + steps, 10**DIGITS)
+
+
+def enclosure(design: Design, key: str) -> tuple[Fraction, Fraction]:
+    """Rational ends around a value of the design; both the value itself where it is rational by construction."""
+    if key == "degree_max":
+        return degree_max(design), degree_max(design)
+    if key == "mu" and design.mu is not None:
+        return design.mu, design.mu
+    return outward(NUMBERS[key](design, 60))
+
+
+def _dyadic(x: Any, bits: int) -> Fraction:
+    return Fraction(int(mp.nint(x * mp.mpf(2) ** bits)), 2**bits)
+
+
+def _triangle(form: Matrix) -> list[list[str]]:
+    return [[ratio(x) for x in row[: i + 1]] for i, row in enumerate(form)]
+
+
+def _lyapunov(design: Design) -> Iterator[dict[str, Any]]:
+    """Q = I - 1 1^T / N, the norm itself; then Q = sum_k (P^T)^k P^k by Smith's doubling, rounded."""
+    t, n = enclosure(design, "mu")[1], design.agents
+    yield {"mu": t, "Q": [[(i == j) - Fraction(1, n) for j in range(n - 1)] for i in range(n - 1)]}
+    with mp.workdps(120):
+        p = mp.matrix([[oracle.real(x) for x in row] for row in perron_on_differences(design, t)])
+        q = mp.eye(n - 1)
+        for _ in range(140):
+            q, p = q + p.T * q * p, p * p
+            if mp.mnorm(p, 1) < mp.mpf(10) ** -60:
+                break
+            if mp.mnorm(p, 1) > mp.mpf(10) ** 200:
+                return
+        for bits in (20, 60, 200):
+            yield {"mu": t, "Q": [[_dyadic(q[max(i, j), min(i, j)], bits) for j in range(n - 1)] for i in range(n - 1)]}
+
+
+def _growing_power(design: Design) -> Iterator[dict[str, Any]]:
+    t = enclosure(design, "mu")[0]
+    rows = perron_on_differences(design, t)
+    with mp.workdps(60):
+        p = mp.matrix([[oracle.real(x) for x in row] for row in rows])
+        product, power = p, 1
+        for _ in range(40):
+            for factor, exponent in ((product, power), (product * p, power + 1), (product * p * p, power + 2)):
+                if abs(mp.fsum(factor[i, i] for i in range(len(rows)))) > len(rows) * mp.mpf("1.01"):
+                    yield {"mu": t, "power": exponent}
+            product, power = product * product, 2 * power
+
+
+def _null_space(a: Matrix) -> Matrix:
+    """Rows that span {w : w^T a = 0}."""
+    import sympy
+
+    matrix = sympy.Matrix([[sympy.Rational(x.numerator, x.denominator) for x in row] for row in a])
+    return [[Fraction(int(x.p), int(x.q)) for x in v] for v in matrix.T.nullspace()]
+
+
+def _invariant_form(design: Design) -> Iterator[dict[str, Any]]:
+    """Y = sum_{j<m} (Pc^T)^j W^T W Pc^j over the rational left null space W of Pc^m - I."""
+    t = enclosure(design, "mu")[0]
+    p = perron_on_differences(design, t)
+    n = len(p)
+    power = p
+    for period in range(1, 13):
+        moved = [[x - (i == j) for j, x in enumerate(row)] for i, row in enumerate(power)]
+        if rows := _null_space(moved):
+            total = [[Fraction(0)] * n for _ in range(n)]
+            for _ in range(period):
+                square = matmul(transpose(rows), rows)
+                total = [[x + y for x, y in zip(r, s, strict=True)] for r, s in zip(total, square, strict=True)]
+                rows = matmul(rows, p)
+            yield {"mu": t, "Y": total}
+        power = matmul(power, p)
+
+
+def _vectors(design: Design) -> Iterator[dict[str, Any]]:
+    """Integer vectors near the top singular vectors of P on 1perp."""
+    n = design.agents
+    with mp.workdps(60):
+        centre = mp.eye(n) - mp.ones(n, n) / n
+        p = mp.matrix([[oracle.real(x) for x in row] for row in laplacian(design)])
+        p = (mp.eye(n) - oracle.mu(design, 60) * p) * centre
+        rows = mp.svd(p)[2]
+        for k in range(min(2, n - 1)):
+            for bits in (10, 30, 50, 150):
+                e = [_dyadic(rows[k, i] * mp.mpf(2) ** bits, 0) for i in range(n)]
+                e[-1] -= sum(e)
+                yield {"e": e}
+
+
+def _symmetric_ends(design: Design) -> Iterator[dict[str, Any]]:
+    a = adjacency(design)
+    if a == transpose(a):
+        values = mp.eigsy(mp.matrix([[oracle.real(x) for x in row] for row in laplacian(design)]), eigvals_only=True)
+        t = enclosure(design, "mu")[1]
+        for digits in (3, 9, 15):
+            s, r = (Fraction(float(x)).limit_denominator(10**digits) for x in (values[1], values[design.agents - 1]))
+            for slack in (Fraction(0), Fraction(1, 10**14)):
+                yield {"mu": t, "lambda2_upper": s + slack, "lambda_max_upper": r + slack}
+
+
+def _algebraic(design: Design) -> Iterator[dict[str, Any]]:
+    root = ties.lambda2_root(design)
+    if root is not None:
+        given = {"polynomial": charpoly(symmetric_part(laplacian(design))), "lower": Fraction(0), "upper": root.upper}
+        yield {"mu": enclosure(design, "mu")[1], "lambda2": given}
+
+
+def _broken_graph(design: Design) -> Iterator[dict[str, Any]]:
+    reach, n = reachability(design), design.agents
+    pairs = [[i + 1, j + 1] for i in range(n) for j in range(n) if not reach[i][j]]
+    sums = [{"agent": i, "in": a, "out": b} for i, (a, b) in enumerate(in_and_out(design), 1) if a != b]
+    yield {**({"unreachable": pairs[0]} if pairs else {}), **({"imbalance": sums[0]} if sums else {})}
+
+
+def candidates(design: Design, claim: str, verdict: str) -> Iterator[dict[str, Any]]:
+    """Witnesses worth trying, best first."""
+    if claim in ("perron-eigenvalues", "control-bounded", "average-consensus") and verdict != "inapplicable":
+        if verdict == "proved":
+            yield from _lyapunov(design)
+        else:
+            yield from _invariant_form(design)
+            yield from _growing_power(design)
+    elif claim == "beta-contraction" and verdict == "proved":
+        yield from _symmetric_ends(design)
+        yield from _algebraic(design)
+    elif verdict == "refuted" and claim in ("beta-contraction", "repaired-condition"):
+        yield from _vectors(design)
+    elif verdict == "refuted" and claim == "memory-inequality":
+        yield {"k": oracle.first_failure(design)[0]}
+    elif verdict == "refuted" and claim == "graph-assumption":
+        yield from _broken_graph(design)
+    else:
+        yield {}
+
+
+def _tree(item: Any) -> Any:
+    if isinstance(item, Fraction):
+        return ratio(item)
+    if isinstance(item, int):
+        return Num(str(item))
+    if isinstance(item, dict):
+        return Obj([(key, _tree(value)) for key, value in item.items()])
+    return [_tree(value) for value in item] if isinstance(item, (list, tuple)) else item
+
+
+def _written(witness: dict[str, Any]) -> Any:
+    return _tree({key: _triangle(value) if key in "QY" else value for key, value in witness.items()})
+
+
+def claim_tree(design: Design, claim: str) -> Obj | None:
+    """One claim with its witness, or None where no candidate showed it."""
+    verdict = oracle.verdict(design, claim)
+    if verdict is None:
+        return None
+    for witness in candidates(design, claim, verdict):
+        if verdict == "inapplicable" or _shown(design, Claim(claim, verdict, STATEMENTS[claim], witness)):
+            named = [("id", claim), ("verdict", verdict), ("statement", STATEMENTS[claim])]
+            return Obj([*named, ("witness", _written(witness))])
+    return None
+
+
+def design_tree(design: Design) -> Obj:
+    """The design as section 2 writes it."""
+    given = {"alpha": design.alpha, "gamma": design.gamma, "mu": design.mu, "h": design.h}
+    required = [claim for claim in oracle.CLAIMS if claim not in ("beta-contraction", "repaired-condition")]
+    edges = [[source, target, weight] for source, target, weight in sorted(design.edges)]
+    known = {key: value for key, value in given.items() if value is not None}
+    return Obj(_tree({**known, "agents": design.agents, "edges": edges, "require": required}).pairs)
+
+
+def certificate(design: Design, version: str = "0") -> bytes:
+    """A true certificate of the design with every claim for which a witness was found."""
+    keys = [
+        key
+        for key in ("mu", "threshold", "degree_max", *GRAPH_VALUES)
+        if key not in GRAPH_VALUES or assumption_1(design)
+    ]
+    ends = {key: enclosure(design, key) for key in keys}
+    values = {key: {"lower": lower, "upper": upper} for key, (lower, upper) in ends.items()}
+    claims = [tree for claim in oracle.CLAIMS if (tree := claim_tree(design, claim)) is not None]
+    tree = Obj(
+        [
+            ("format", "fomas-certificate/1"),
+            ("kind", "design"),
+            ("design", design_tree(design)),
+            ("values", _tree(values)),
+            ("claims", claims),
+            ("tool", _tree({"name": "fomas_verify", "version": version})),
+        ]
+    )
+    return (dumps(tree) + "\n").encode()
