@@ -10,7 +10,6 @@ from typing import Any
 from fomas_verify.claims.registry import CLAIMS
 from fomas_verify.claims.verdict import Decision
 from fomas_verify.design import Design
-from fomas_verify.enclosure.interval import Interval
 from fomas_verify.exact.rational import format_rational
 
 FORMAT = "fomas-certificate/1"
@@ -18,14 +17,14 @@ TOOL = "fomas_verify"
 
 
 def certificate_text(
-    design: Design, values: Mapping[str, Interval], decisions: Mapping[str, Decision], version: str
+    design: Design, values: Mapping[str, Mapping[str, Any]], decisions: Mapping[str, Decision], version: str
 ) -> str:
     """The certificate of a design, the same bytes on every machine for the same design, options and version."""
     document = {
         "format": FORMAT,
         "kind": "design",
         "design": design_object(design),
-        "values": {name: {"lower": plain(x.lower), "upper": plain(x.upper)} for name, x in values.items()},
+        "values": plain(values),
         "claims": [
             {
                 "id": claim.ID,

@@ -24,7 +24,8 @@ from fomas_verify.checker.polynomials import (
 
 
 class Root:
-    """One real root theta: `scale` theta is the only root of the monic square-free `modulus` in [lower, upper].
+    """One real root theta: y = `scale` theta is the only root of the monic square-free `modulus` in [lower, upper],
+    and is not `lower`.
 
     The modulus shrinks to a factor, and the interval narrows, as questions are asked; theta stays.
     """
@@ -86,8 +87,8 @@ class Root:
     def _split(self, factor: Poly) -> None:
         """Take for modulus that one of `factor` (a divisor) and its cofactor which has the root y.
 
-        Neither end of the interval is a root of the modulus, and one root is between: a divisor has it iff its sign
-        changes.
+        The modulus has one simple root in (lower, upper], and none at `lower`: a divisor has that root iff its signs at
+        the ends differ.
         """
         if sign_at(factor, self.lower) != sign_at(factor, self.upper):
             self.modulus = factor
@@ -154,9 +155,6 @@ def isolate(polynomial: Sequence[Fraction], lower: Fraction, upper: Fraction) ->
     simple = divided(whole, common_divisor(whole, derivative(whole)))[0]
     if roots_between(simple, lower, upper) != 1:
         return None
-    if sign_at(simple, upper) == 0:
-        simple = (-upper.numerator, upper.denominator)
-        upper += 1
     if sign_at(simple, lower) == 0:
         simple = divided(simple, (-lower.numerator, lower.denominator))[0]
     scale = abs(simple[-1])

@@ -87,18 +87,15 @@ class Graph:
         """D = max_i sum_j a_ij."""
         return max(self.heard(agent) for agent in range(1, self.design.agents + 1))
 
-    def reachable(self, start: int, backward: bool = False) -> set[int]:
-        """The agents to which a directed path leads from `start`, itself included; or from which one leads to it."""
-        neighbours: list[list[int]] = [[] for _ in range(self.design.agents + 1)]
+    def reachable(self, start: int) -> set[int]:
+        """The agents to which a directed path leads from `start`, itself included."""
+        listeners: list[list[int]] = [[] for _ in range(self.design.agents + 1)]
         for source, target, _ in self.design.edges:
-            if backward:
-                neighbours[target].append(source)
-            else:
-                neighbours[source].append(target)
+            listeners[source].append(target)
         found = {start}
         waiting = [start]
         while waiting:
-            for agent in neighbours[waiting.pop()]:
+            for agent in listeners[waiting.pop()]:
                 if agent not in found:
                     found.add(agent)
                     waiting.append(agent)
@@ -106,11 +103,13 @@ class Graph:
 
     @cached_property
     def satisfies_assumption(self) -> bool:
-        """Assumption 1: strongly connected and balanced."""
-        agents = self.design.agents
-        if len(self.reachable(1)) < agents or len(self.reachable(1, backward=True)) < agents:
-            return False
-        return all(self.heard(agent) == self.spoken(agent) for agent in range(1, agents + 1))
+        """Assumption 1: strongly connected and balanced.
+
+        On a balanced graph it is enough that agent 1 reaches all: no edge leads into the set B of those that reach it from
+        outside B, so by balance none leads out, and what agent 1 (in B) reaches is in B.
+        """
+        agents = range(1, self.design.agents + 1)
+        return all(self.heard(agent) == self.spoken(agent) for agent in agents) and self.reachable(1) == set(agents)
 
     @cached_property
     def is_symmetric(self) -> bool:

@@ -9,7 +9,15 @@ from __future__ import annotations
 from fomas_verify.claims.remedy import lower_mu
 from fomas_verify.claims.verdict import Decision, Verdict, undecided
 from fomas_verify.enclosure.digits import decimal
-from fomas_verify.spectrum.contraction import beta_contraction_witness, direction_above
+from fomas_verify.enclosure.interval import short_dyadic
+from fomas_verify.spectrum.contraction import (
+    beta_contraction_witness,
+    beta_contracts_at,
+    direction_above,
+    field_is_small,
+    is_normal_on_fiedler_space,
+    lambda2_root,
+)
 from fomas_verify.spectrum.loop import Loop
 from fomas_verify.spectrum.precision import PRECISIONS
 
@@ -41,5 +49,12 @@ def remedy(loop: Loop, bits: int) -> str:
     """What would make the step true, where anything does."""
     if loop.laplacian == loop.laplacian.transpose():
         spectrum = loop.symmetric_spectrum(bits)
-        return lower_mu(loop, (2 / (spectrum[0][0] + spectrum[-1][0]).upper))
-    return "rely on repaired-condition, which has sigma in place of beta"
+        return lower_mu(loop, 2 / (spectrum[0][0] + spectrum[-1][0]).upper)
+    root = lambda2_root(loop, bits)
+    if root is None or not field_is_small(loop, root):
+        return "repaired-condition has sigma in place of beta"
+    if not is_normal_on_fiedler_space(loop, root):
+        return "none: on this graph the step is false for every mu; repaired-condition has sigma in place of beta"
+    mu = short_dyadic(loop.mu(bits).lower / 2, loop.mu(bits).lower)
+    halves = (mu / 2**j for j in range(64))
+    return next((lower_mu(loop, t) for t in halves if beta_contracts_at(loop, root, t)), "a much smaller gain")

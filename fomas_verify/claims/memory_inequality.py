@@ -62,7 +62,7 @@ def _raise_or_none(loop: Loop, least: Interval, bits: int) -> str:
     """The least mu for (14), unless the gain bound (15) excludes it."""
     bound = 1 / loop.degree_max
     if least.upper < bound:
-        return raise_mu(loop, least.upper)
+        return raise_mu(loop, least.upper, below=bound)
     alpha = log2(2 - loop.lambda2(bits) / loop.degree_max, bits)
     return (
         "no gamma and no h meets (14) and (15) together on this graph at this alpha: "

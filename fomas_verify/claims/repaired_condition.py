@@ -8,17 +8,18 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from fomas_verify.claims.remedy import lower_mu, raise_mu
+from fomas_verify.claims.remedy import DIGITS, lower_mu, raise_mu
 from fomas_verify.claims.verdict import Decision, Verdict, undecided
-from fomas_verify.enclosure.digits import decimal
+from fomas_verify.enclosure.digits import decimal, rounded_down, rounded_up
 from fomas_verify.spectrum.contraction import contraction_interval, direction_above
-from fomas_verify.spectrum.loop import Loop, exact_sigma_squared
+from fomas_verify.spectrum.loop import Loop, sigma_at
 from fomas_verify.spectrum.precision import PRECISIONS
 
 ID = "repaired-condition"
 STATEMENT = "norm of P e <= (2^alpha - 1) norm of e for every e that sums to 0 (sigma <= 2^alpha - 1)"
 SOURCE = "theory, section 3"
 COQ = ""
+NUDGE = Fraction(1, 10**8)
 MEANING = (
     "The repaired Theorem 1 does not cover this design: "
     "it does not establish that norm u_k never exceeds norm u_0 for every initial state."
@@ -38,16 +39,15 @@ def decide(loop: Loop) -> Decision:
 
 
 def remedy(loop: Loop) -> str:
-    """The nearest mu below 1/Delta_max that satisfies the condition, seen to satisfy it; or that there is none."""
+    """The nearest mu that satisfies the condition, seen to satisfy it; or that there is none."""
     threshold = loop.threshold(128)
-    region = contraction_interval(loop, threshold, 1 / loop.degree_max)
+    region = contraction_interval(loop, threshold)
     if region is None:
-        return (
-            "no gamma and no h gives it on this graph at this alpha: no mu up to 1/Delta_max has sigma <= 2^alpha - 1"
-        )
-    mu = loop.mu(128)
-    low = mu.upper < region.lower
-    target = region.lower * (1 + Fraction(1, 10**8)) if low else region.upper * (1 - Fraction(1, 10**8))
-    if exact_sigma_squared(loop.laplacian, target, 128).upper >= threshold.lower**2:
-        return "search near the interval of mu " + f"[{float(region.lower):.6g}, {float(region.upper):.6g}]"
-    return raise_mu(loop, target) if low else lower_mu(loop, target)
+        return "no gamma and no h gives it on this graph at this alpha: no mu at all has sigma <= 2^alpha - 1"
+    low = loop.mu(128).upper < region.lower
+    target = region.lower * (1 + NUDGE) if low else region.upper * (1 - NUDGE)
+    if sigma_at(loop.laplacian, target, 128).upper >= threshold.lower:
+        lower, upper = rounded_down(region.lower, DIGITS), rounded_up(region.upper, DIGITS)
+        return f"only mu between {lower} and {upper} can have it"
+    beyond = " (beyond the gain bound (15))" if target * loop.degree_max >= 1 else ""
+    return (raise_mu(loop, target) if low else lower_mu(loop, target)) + beyond

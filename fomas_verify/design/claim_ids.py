@@ -25,4 +25,3 @@ CLAIM_IDS: Final = (
     "control-bounded",
     "average-consensus",
 )
-UNSUPPORTED_CLAIM_IDS: Final = ("control-norm-bound", "trajectory-norm-bound")

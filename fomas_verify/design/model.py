@@ -27,6 +27,8 @@ class Design:
         Initial state, a number for each agent.
     horizon : int or None
         Last sample k up to which (14) is also checked sample by sample.
+    settle_to : Fraction or None
+        Share of the disagreement at which the agents count as settled, between 0 and 1.
     require : tuple of str
         Ids of the claims that must be proved, at least one, none twice.
     source : str
@@ -43,6 +45,7 @@ class Design:
     graph: Digraph
     x0: tuple[Fraction, ...] | None
     horizon: int | None
+    settle_to: Fraction | None
     require: tuple[str, ...]
     source: str
     notes: tuple[str, ...] = ()

@@ -9,7 +9,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Final
 
-from fomas_verify.design.claim_ids import CLAIM_IDS, DEFAULT_REQUIRE, UNSUPPORTED_CLAIM_IDS
+from fomas_verify.design.claim_ids import CLAIM_IDS, DEFAULT_REQUIRE
 from fomas_verify.design.document import Format, format_of, parse_document, read_text, source_name
 from fomas_verify.design.errors import DesignError
 from fomas_verify.design.fields import Place, choice, count, number, positive, sequence, table
@@ -20,8 +20,8 @@ FORMAT: Final = "fomas-design/1"
 MAX_HORIZON: Final = 10**9
 MAX_NAME: Final = 200
 
-_KEYS = ("name", "alpha", "gamma", "mu", "h", "x0", "horizon", "graph", "gate", "format")
-_UNSUPPORTED = ("settle_to", "graphs", "limits")
+_KEYS = ("name", "alpha", "gamma", "mu", "h", "x0", "horizon", "settle_to", "graph", "gate", "format")
+_UNSUPPORTED = ("graphs", "limits")
 _ALPHA_LIMIT = 2**64
 
 
@@ -102,7 +102,8 @@ def design_from_mapping(mapping: Mapping[str, object], source: str = "design") -
         graph=graph,
         x0=_initial_state(top["x0"], place.key("x0"), graph.agents) if "x0" in top else None,
         horizon=count(top["horizon"], place.key("horizon"), 0, MAX_HORIZON) if "horizon" in top else None,
-        require=_require(top["gate"], place.key("gate")) if "gate" in top else DEFAULT_REQUIRE,
+        settle_to=_settle_to(top["settle_to"], place.key("settle_to")) if "settle_to" in top else None,
+        require=_require(top, place) if "gate" in top else DEFAULT_REQUIRE,
         source=source,
         notes=_notes(top),
     )
@@ -158,19 +159,26 @@ def _initial_state(value: object, place: Place, agents: int) -> tuple[Fraction, 
     return tuple(x for (x,) in state)
 
 
-def _require(value: object, place: Place) -> tuple[str, ...]:
-    gate = table(value, place, ("require",))
+def _settle_to(value: object, place: Place) -> Fraction:
+    target = positive(value, place)
+    if target >= 1:
+        raise place.expected("a number between 0 and 1, both excluded", value)
+    return target
+
+
+def _require(top: Mapping[str, object], place: Place) -> tuple[str, ...]:
+    gate = table(top["gate"], place.key("gate"), ("require",))
     if "require" not in gate:
         return DEFAULT_REQUIRE
-    where = place.key("require")
+    where = place.key("gate").key("require")
     entries = sequence(gate["require"], where, "a list of claim ids")
     if not entries:
         raise where.expected("at least one claim id", entries)
     required: list[str] = []
     for i, entry in enumerate(entries):
         claim = choice(entry, where.item(i), "a claim id", CLAIM_IDS)
-        if claim in UNSUPPORTED_CLAIM_IDS:
-            raise where.item(i).unsupported(f"the claim {claim} is")
+        if claim == "trajectory-norm-bound" and "x0" not in top:
+            raise DesignError(f"{where.item(i)}: expected a design with x0, which {claim} is about; got no x0")
         if claim in required:
             raise DesignError(f"{where.item(i)}: expected each claim once, got {claim} again")
         required.append(claim)

@@ -86,11 +86,14 @@ class Interval:
         return self * Interval(1 / right.upper, 1 / right.lower)
 
     def rounded(self, bits: int) -> Interval:
-        """The least enclosure of this one with ends in ``2^-e Z``: e = bits, more for numbers below 1. An exact
-        number stays exact.
+        """The least enclosure of this one with ends in ``2^-e Z``: e = bits, more for numbers below 1.
+
+        An exact number stays exact.
         """
-        if self.is_exact:
-            return self
+        return self if self.is_exact else self.outward(bits)
+
+    def outward(self, bits: int) -> Interval:
+        """The same, an exact number included."""
         size = max(abs(self.lower), abs(self.upper))
         shift = bits + max(0, size.denominator.bit_length() - size.numerator.bit_length())
         return Interval(round_down(self.lower, shift), round_up(self.upper, shift))

@@ -9,8 +9,8 @@ from fractions import Fraction
 
 from flint import arb, arb_mat
 
-from fomas_verify.enclosure.real import exact_end, working_precision
-from fomas_verify.exact.matrix import Matrix, identity, matrix
+from fomas_verify.enclosure.real import exact_end, to_fmpq, working_precision
+from fomas_verify.exact.matrix import Matrix, all_ones, identity, matrix, scaled, to_rows
 
 
 def _rounded(a: arb_mat, scale_bits: int) -> list[list[int]]:
@@ -43,20 +43,22 @@ def integer_lyapunov_form(approximation: arb_mat, scale_bits: int) -> Matrix:
     return matrix([[Fraction(rows[max(i, j)][min(i, j)]) for j in range(len(rows))] for i in range(len(rows))])
 
 
-def approx_top_vector(a: Matrix, doublings: int, bits: int) -> list[Fraction]:
-    """A vector near the eigenspace of the largest eigenvalue of a positive semidefinite A: its column of largest
-    diagonal entry after A has been squared ``doublings`` times, with largest entry 1.
+def approx_eigenvector(a: Matrix, shift: Fraction, bits: int) -> list[Fraction]:
+    """A vector that sums to 0, near the eigenspace on 1perp of the symmetric A's eigenvalue next to the shift;
+    largest entry 1.
+
+    Inverse iteration; A keeps 1perp, and the vector 1 is moved out of the way.
     """
-    with working_precision(bits):
-        power = arb_mat(a)
-        n = a.nrows()
-        for _ in range(doublings):
-            power = power * power
-            trace = sum((power[i, i] for i in range(n)), arb(0)).mid()
-            if not trace > 0:
-                break
-            power = (power * (1 / trace)).mid()
-        best = max(range(n), key=lambda i: exact_end(power[i, i].mid()))
-        column = [exact_end(power[i, best].mid()) for i in range(n)]
-    largest = max((abs(x) for x in column), default=Fraction(0)) or Fraction(1)
-    return [x / largest for x in column]
+    n = a.nrows()
+    a = a + scaled(all_ones(n), 1 + max(abs(x) for row in to_rows(a) for x in row))
+    with working_precision(2 * bits):
+        offset = arb(to_fmpq(shift)) * (1 + arb(2) ** -bits) + arb(2) ** (-2 * bits)
+        shifted = arb_mat(a) - arb_mat(n, n, [offset * int(i == j) for i in range(n) for j in range(n)])
+        vector = [arb((7 * i * i + 3 * i) % (2 * n + 3) + 1) for i in range(n)]
+        for _ in range(4):
+            mean = sum(vector, arb(0)) / n
+            solved = shifted.solve(arb_mat(n, 1, [x - mean for x in vector]), algorithm="approx")
+            size = max(abs(exact_end(solved[i, 0].mid())) for i in range(n))
+            vector = [solved[i, 0].mid() / arb(to_fmpq(size)) for i in range(n)]
+        entries = [exact_end(x.mid()) for x in vector]
+    return [x / max(map(abs, entries)) for x in entries]

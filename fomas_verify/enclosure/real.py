@@ -54,15 +54,18 @@ def power(base: Fraction, exponent: Fraction, bits: int) -> Interval:
 
 
 def square_root(x: Interval, bits: int) -> Interval:
-    """The square root of a nonnegative number, exact for the square of a rational; a negative lower end, a rounding
-    of 0, is taken as 0.
+    """The square root of a nonnegative number, exact for the square of a rational.
+
+    A negative lower end, a rounding of 0, is taken as 0.
     """
-    if x.is_exact and x.lower >= 0:
-        root = Fraction(isqrt(x.lower.numerator), isqrt(x.lower.denominator))
-        if root * root == x.lower:
+    lower, upper = max(x.lower, Fraction(0)), max(x.upper, Fraction(0))
+    if x.is_exact:
+        root = Fraction(isqrt(lower.numerator), isqrt(lower.denominator))
+        if root * root == lower:
             return Interval.exactly(root)
     with working_precision(bits):
-        return to_interval(to_ball(Interval(max(x.lower, Fraction(0)), max(x.upper, Fraction(0)))).sqrt())
+        low, high = (to_interval(arb(to_fmpq(end)).sqrt()) for end in (lower, upper))
+    return Interval(max(low.lower, Fraction(0)), high.upper)
 
 
 def gamma_function(x: Fraction, bits: int) -> Interval:

@@ -26,7 +26,7 @@ def approx_gain_and_threshold(
     """``2^alpha - 1`` and, where h and gamma are given, ``mu = gamma h^alpha / Gamma(alpha + 1)``; approximate."""
     import mpmath
 
-    with mpmath.workdps(digits + GUARD):
+    with mpmath.workdps(digits + GUARD + _cancelled(alpha)):
         a = mpmath.mpf(alpha.numerator) / alpha.denominator
         found = {"threshold": mpmath.mpf(2) ** a - 1}
         if h is not None and gamma is not None:
@@ -35,11 +35,16 @@ def approx_gain_and_threshold(
         return {name: _to_fraction(x) for name, x in found.items()}
 
 
+def _cancelled(alpha: Fraction) -> int:
+    """Digits lost near alpha = 0 and alpha = 1, where differences of powers are small."""
+    return 2 * len(str(alpha.denominator))
+
+
 def approx_memory(alpha: Fraction, j: int, digits: int) -> tuple[Fraction, Fraction]:
     """``f(j)`` and ``c_j`` for j >= 1; approximate."""
     import mpmath
 
-    with mpmath.workdps(digits + GUARD + 2 * len(str(j)) + 5):
+    with mpmath.workdps(digits + GUARD + 2 * len(str(j)) + 5 + _cancelled(alpha)):
         a = mpmath.mpf(alpha.numerator) / alpha.denominator
         ahead, here, behind = (mpmath.mpf(n) ** a for n in (j + 1, j, j - 1))
         return _to_fraction(ahead - 2 * here + behind), _to_fraction(ahead - here)

@@ -6,15 +6,19 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from importlib.metadata import version
+from typing import Any
 
 from fomas_verify.certificate import certificate_text
+from fomas_verify.claims import trajectory_norm_bound
 from fomas_verify.claims.registry import CLAIMS, ON_ANY_GRAPH
 from fomas_verify.claims.verdict import Decision, Verdict, inapplicable
 from fomas_verify.design import Design
 from fomas_verify.enclosure.interval import Interval
 from fomas_verify.enclosure.reference import DisagreementError, approx_gain_and_threshold, must_agree
 from fomas_verify.kernel.horizon import Horizon, check_horizon
+from fomas_verify.prover.sizes import Sizes, measure
 from fomas_verify.spectrum.loop import Loop
+from fomas_verify.spectrum.stability import Side, stability
 
 DEFAULT_DIGITS = 50
 
@@ -26,6 +30,7 @@ class Proof:
     design: Design
     loop: Loop
     values: Mapping[str, Interval]
+    sizes: Sizes
     decisions: Mapping[str, Decision]
     horizon: Horizon | None
     digits: int
@@ -40,7 +45,12 @@ class Proof:
 
     def certificate(self) -> str:
         """The certificate's canonical text."""
-        return certificate_text(self.design, self.values, self.decisions, version("fomas_verify"))
+        return certificate_text(self.design, self.value_entries(), self.decisions, version("fomas_verify"))
+
+    def value_entries(self) -> dict[str, dict[str, Any]]:
+        """The values as the certificate writes them, in its order."""
+        entries = {name: {"lower": x.lower, "upper": x.upper} for name, x in self.values.items()}
+        return entries | self.sizes.entries()
 
 
 def prove(design: Design, *, horizon: int | None = None, digits: int = DEFAULT_DIGITS) -> Proof:
@@ -69,16 +79,18 @@ def prove(design: Design, *, horizon: int | None = None, digits: int = DEFAULT_D
     loop = Loop(design)
     values = enclose_values(loop, digits)
     _compare_with_mpmath(design, values, digits)
+    sizes = measure(loop, decided_stable=stability(loop).side is Side.INSIDE)
     decisions = {
         claim.ID: claim.decide(loop) if loop.assumption1 or claim.ID in ON_ANY_GRAPH else inapplicable()
         for claim in CLAIMS
+        if claim is not trajectory_norm_bound or design.x0 is not None
     }
     samples = design.horizon if horizon is None else horizon
     seen = None
     if samples is not None and loop.assumption1:
         seen = check_horizon(design.alpha, loop.beta(_bits(digits)), samples, digits)
-        _compare_with_closed_form(seen, decisions["memory-inequality"])
-    return Proof(design, loop, values, decisions, seen, digits)
+        compare_with_closed_form(seen, decisions["memory-inequality"])
+    return Proof(design, loop, values, sizes, decisions, seen, digits)
 
 
 def _bits(digits: int) -> int:
@@ -105,12 +117,14 @@ def _compare_with_mpmath(design: Design, values: Mapping[str, Interval], digits:
             must_agree("beta", beta, Fraction(1) - x * lambda2, digits)
 
 
-def _compare_with_closed_form(seen: Horizon, decision: Decision) -> None:
-    """The samples and the closed form must tell the same."""
-    expected = decision.witness.get("k") if decision.verdict is Verdict.REFUTED else None
-    if decision.verdict is Verdict.UNDECIDED or (expected is not None and expected > seen.last):
+def compare_with_closed_form(seen: Horizon, decision: Decision) -> None:
+    """Raise :class:`DisagreementError` where the samples and the closed form contradict each other."""
+    if decision.verdict is Verdict.UNDECIDED:
         return
-    if seen.first_failure != expected and expected not in seen.not_decided:
+    expected = decision.witness.get("k") if decision.verdict is Verdict.REFUTED else None
+    if expected is not None and (expected > seen.last or (expected in seen.not_decided and seen.first_failure is None)):
+        expected = None
+    if seen.first_failure != expected:
         raise DisagreementError(
             f"memory-inequality: sample by sample it first fails at k = {seen.first_failure}, "
             f"by the closed form at k = {expected}"

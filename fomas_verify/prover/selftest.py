@@ -139,7 +139,7 @@ def polynomial_roots() -> bool:
     pair = complex_roots(polynomial([2, -2, 1]) * polynomial([2, -2, 1]), BITS)
     return real_roots(wilkinson, BITS) == [(Interval.exactly(n), 1) for n in range(1, 13)] and [
         (root.real.lower, root.imag.lower, root.multiplicity) for root in pair
-    ] == [(1, -1, 2), (1, 1, 2)]
+    ] == [(Fraction(1), Fraction(-1), 2), (Fraction(1), Fraction(1), 2)]
 
 
 def factors() -> bool:

@@ -13,10 +13,11 @@ from fractions import Fraction
 from fomas_verify.enclosure.digits import decimal
 from fomas_verify.enclosure.interval import Interval
 from fomas_verify.enclosure.real import square_root
+from fomas_verify.enclosure.roots import root_of
 from fomas_verify.report.graph_drawing import fixed
 from fomas_verify.report.latex_text import Tex
 from fomas_verify.report.math_text import math_number
-from fomas_verify.spectrum.loop import Loop, modulus_squared
+from fomas_verify.spectrum.loop import Loop
 
 BITS = 128
 ROWS = 12
@@ -89,7 +90,7 @@ def _eigenvalues(loop: Loop) -> Iterator[Eigenvalue]:
         if root.imag.upper < 0:
             continue
         real, imag = 1 - mu * root.real, -(mu * root.imag)
-        modulus = square_root(modulus_squared(real, imag), BITS)
+        modulus = square_root(root_of(real, imag, 1).square, BITS)
         yield Eigenvalue((root.real, root.imag), (real, imag), modulus, root.multiplicity, root.imag.lower > 0)
 
 

@@ -10,8 +10,9 @@ from fomas_verify.claims.verdict import Decision, Verdict
 from fomas_verify.design import Design
 from fomas_verify.enclosure.digits import decimal
 from fomas_verify.enclosure.interval import Interval
-from fomas_verify.enclosure.roots import Root
+from fomas_verify.enclosure.roots import Root, root_of
 from fomas_verify.exact.rational import format_rational
+from fomas_verify.kernel.horizon import Horizon
 from fomas_verify.prover import Proof
 from fomas_verify.spectrum.stability import mu_star
 
@@ -35,13 +36,9 @@ def proof_text(proof: Proof) -> str:
     parts = [_heading(proof.design), _verdicts(proof), _values(proof), _spectrum(proof)]
     if proof.horizon is not None:
         parts.append(_horizon(proof))
-    parts += [_refutation(claim.ID, proof.decisions[claim.ID]) for claim in CLAIMS if _is_refuted(proof, claim.ID)]
+    parts += [_refutation(name, x) for name, x in proof.decisions.items() if x.verdict is Verdict.REFUTED]
     parts.append(_ending(proof))
     return "\n".join(parts)
-
-
-def _is_refuted(proof: Proof, name: str) -> bool:
-    return proof.decisions[name].verdict is Verdict.REFUTED
 
 
 def _heading(design: Design) -> str:
@@ -54,10 +51,9 @@ def _heading(design: Design) -> str:
 def _verdicts(proof: Proof) -> str:
     width = max(len(claim.ID) for claim in CLAIMS)
     lines = []
-    for claim in CLAIMS:
-        decision = proof.decisions[claim.ID]
-        mark = "*" if claim.ID in proof.design.require else " "
-        head = f"{mark} {claim.ID:{width}}  {decision.verdict.value:<12}"
+    for name, decision in proof.decisions.items():
+        mark = "*" if name in proof.design.require else " "
+        head = f"{mark} {name:{width}}  {decision.verdict.value:<14}"
         lines += textwrap.wrap(head + decision.reason, WIDTH, subsequent_indent=" " * len(head))
     return "\n".join([*lines, "(* required)"]) + "\n"
 
@@ -75,7 +71,8 @@ def _spectrum(proof: Proof) -> str:
     center, radius = decimal(1 - mu * d, 12), decimal(mu * d, 12)
     lines = [f"  eigenvalues of L: {listed(zero_and(roots))}"]
     lines += [f"  eigenvalues of P other than 1: {listed(of_perron(roots, mu))}"]
-    bounds = [f"abs(z - {center}) <= {radius} (Gershgorin)"]
+    shifted = f"z + {center[1:]}" if center.startswith("-") else f"z - {center}"
+    bounds = [f"abs({shifted}) <= {radius} (Gershgorin)"]
     if "sigma" in proof.values:
         bounds += [f"Re z <= beta = {decimal(proof.values['beta'], 12)} (numerical range)"]
         bounds += [f"abs z <= sigma = {decimal(proof.values['sigma'], 12)}"]
@@ -90,12 +87,12 @@ def _spectrum(proof: Proof) -> str:
 
 def zero_and(roots: list[Root]) -> list[Root]:
     """The eigenvalues of L: 0, of the vector 1, and the others."""
-    return [Root(Interval.exactly(0), Interval.exactly(0), 1), *roots]
+    return [root_of(Interval.exactly(0), Interval.exactly(0), 1), *roots]
 
 
 def of_perron(roots: list[Root], mu: Interval) -> list[Root]:
     """``1 - mu lambda`` for each."""
-    return [Root(1 - mu * root.real, -(mu * root.imag), root.multiplicity) for root in roots]
+    return [root_of(1 - mu * root.real, -(mu * root.imag), root.multiplicity) for root in roots]
 
 
 def listed(roots: list[Root]) -> str:
@@ -121,14 +118,26 @@ def _horizon(proof: Proof) -> str:
     seen = proof.horizon
     if seen is None:
         return ""
-    held = "holds at each of them" if seen.first_failure is None else f"first fails at k = {seen.first_failure}"
-    lines = [f"  (14) term by term at k = 0..{seen.last}: {held}; agrees with the closed form"]
-    if seen.not_decided:
-        lines += [f"  equality, decided exactly and not by the sum, at k = {', '.join(map(str, seen.not_decided))}"]
+    lines = [f"  (14) term by term at k = 0..{seen.last}: {held(seen)}"]
     smallest = decimal(seen.least_slack, 12)
     lines += [f"  relative slack 1 - beta^(k+1)/c_(k+1): smallest {smallest} at k = {seen.least_slack_at}"]
     lines += ["  (the absolute slack c_(k+1) - beta^(k+1) tends to 0 for every design: it says nothing of safety)"]
     return "\n".join(lines) + "\n"
+
+
+def held(seen: Horizon) -> str:
+    """What the samples of a horizon showed."""
+    if seen.not_decided:
+        undecided = ", ".join(map(str, seen.not_decided))
+        rest = (
+            "holds at each other"
+            if seen.first_failure is None
+            else f"first certain failure at k = {seen.first_failure}"
+        )
+        return f"k = {undecided} too near to equality for these digits (the closed form decides it); {rest}"
+    if seen.first_failure is None:
+        return "holds at each of them"
+    return f"first fails at k = {seen.first_failure}"
 
 
 def _refutation(name: str, decision: Decision) -> str:

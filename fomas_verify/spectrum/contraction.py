@@ -10,13 +10,13 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from fomas_verify.enclosure.interval import Interval, short_dyadic
-from fomas_verify.enclosure.linear import approx_top_vector
+from fomas_verify.enclosure.linear import approx_eigenvector
 from fomas_verify.enclosure.real import square_root
 from fomas_verify.enclosure.roots import real_roots
 from fomas_verify.exact import matrix as exact
 from fomas_verify.exact.numberfield import RealField, is_semidefinite, quadratic_in_theta
 from fomas_verify.exact.polynomial import Polynomial, irreducible_factors, scaled_roots
-from fomas_verify.spectrum.loop import Loop, gram
+from fomas_verify.spectrum.loop import Loop, decrease, least_decrease
 
 FIELD_WORK = 1_000_000
 """Bound on ``degree^2 N^3`` for elimination over Q(lambda2)."""
@@ -24,7 +24,8 @@ FIELD_WORK = 1_000_000
 
 def directions(loop: Loop, mu: Fraction, bits: int) -> Iterator[list[Fraction]]:
     """Integer vectors that sum to 0, ever nearer to the one that P(mu) shrinks least."""
-    approximation = approx_top_vector(gram(loop.laplacian, mu), 24, bits)
+    shift = least_decrease(loop.laplacian, mu, bits).lower
+    approximation = approx_eigenvector(decrease(loop.laplacian, mu), shift, bits)
     scale = 1
     while scale <= bits:
         e = [Fraction(round(x * (1 << scale))) for x in approximation]
@@ -79,6 +80,11 @@ def lambda2_root(loop: Loop, bits: int) -> Lambda2Root | None:
     return Lambda2Root(scaled_roots(factor, scale), lower, root.upper)
 
 
+def field_is_small(loop: Loop, root: Lambda2Root) -> bool:
+    """Whether exact algebra over Q(lambda2) stays within the work allowed."""
+    return bool(root.polynomial.degree() ** 2 * loop.laplacian.nrows() ** 3 <= FIELD_WORK)
+
+
 def is_normal_on_fiedler_space(loop: Loop, root: Lambda2Root) -> bool:
     """Whether the skew part of L vanishes on the eigenspace of lambda2; exact, through its rational hull."""
     hull = exact.kernel(exact.evaluate(root.polynomial, loop.symmetric_part))
@@ -104,7 +110,7 @@ def beta_contraction_witness(loop: Loop, bits: int) -> dict[str, object] | None:
     if loop.laplacian == loop.laplacian.transpose() and (found := _symmetric_witness(loop, bits)) is not None:
         return found
     root = lambda2_root(loop, bits)
-    if root is None or root.polynomial.degree() ** 2 * loop.laplacian.nrows() ** 3 > FIELD_WORK:
+    if root is None or not field_is_small(loop, root):
         return None
     if not is_normal_on_fiedler_space(loop, root):
         return None
@@ -137,30 +143,29 @@ def _just_above(mu: Interval, bits: int) -> list[Fraction]:
     return [short_dyadic(mu.upper, mu.upper + slack) for slack in slacks]
 
 
-def contraction_interval(loop: Loop, factor: Interval, mu_max: Fraction, *, cuts: int = 40) -> Interval | None:
-    """An interval outside of which no mu in ``[0, mu_max]`` has ``sigma(mu) <= factor``; None where no mu has it.
+def contraction_interval(loop: Loop, factor: Interval, *, cuts: int = 40) -> Interval | None:
+    """An interval outside of which no mu has ``sigma(mu) <= factor``; None where no mu has it.
     Rigorous.
 
-    sigma >= 1 - mu lambda2 gives the first lower end. A direction e cuts off every mu with ``norm(P(mu) e) > factor
+    abs(1 - mu lambda2) <= sigma gives the first ends. A direction e cuts off every mu with ``norm(P(mu) e) > factor
     norm(e)``: all but a closed interval, since the square is a convex parabola in mu.
     """
-    fiedler = (1 - factor.upper) / loop.lambda2(64).upper
-    lower, upper = fiedler, mu_max
-    if lower > upper:
-        return None
+    slowest, settled = loop.lambda2(64), 0
+    lower, upper = (1 - factor.upper) / slowest.upper, (1 + factor.upper) / slowest.lower
     for cut in range(cuts):
+        if lower > upper:
+            return None
         end = lower if cut % 2 == 0 else upper
-        e = _last(directions(loop, short_dyadic(end * (1 - Fraction(1, 1 << 60)), end), 64))
+        e = _last(directions(loop, short_dyadic(end * (1 - Fraction(1, 1 << 60)), end), 96))
         allowed = _parabola_interval(loop, e, factor.upper)
         if allowed is None:
             return None
-        before = (lower, upper)
+        moved = allowed.lower - lower, upper - allowed.upper
         lower, upper = max(lower, allowed.lower), min(upper, allowed.upper)
-        if lower > upper:
-            return None
-        if cut > 2 and upper - before[1] == 0 and (lower - before[0]) * (1 << 48) < lower:
+        settled = settled + 1 if max(moved) * (1 << 48) < upper else 0
+        if settled > 1:
             break
-    return Interval(lower, upper)
+    return Interval(lower, upper) if lower <= upper else None
 
 
 def _last(items: Iterator[list[Fraction]]) -> list[Fraction]:

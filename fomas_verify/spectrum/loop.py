@@ -114,16 +114,15 @@ class Loop:
         """
         mu = self.mu(bits)
         middle = mu.rounded(bits).mid
-        square = exact_sigma_squared(self.laplacian, middle, 2 * bits)
         slack = 2 * self.degree_max * max(mu.upper - middle, middle - mu.lower)
-        sigma = square_root(square, 2 * bits)
+        sigma = sigma_at(self.laplacian, middle, 2 * bits)
         return Interval(max(Fraction(0), sigma.lower - slack), sigma.upper + slack)
 
     @cache  # noqa: B019
     def disagreement_eigenvalues(self, bits: int) -> list[Root]:
         """The eigenvalues of L other than the one 0 of the vector 1, distinct, with multiplicities."""
         polynomial, scale = integer_characteristic_polynomial(self.on_differences)
-        return [Root(r.real / scale, r.imag / scale, r.multiplicity) for r in complex_roots(polynomial, bits)]
+        return [root.over(scale) for root in complex_roots(polynomial, bits)]
 
     def mu_star(self, bits: int) -> Interval | None:
         """``min 2 Re(lambda)/abs(lambda)^2`` over these eigenvalues: P is Schur on the differences iff 0 < mu < mu*.
@@ -132,30 +131,23 @@ class Loop:
         """
         bounds = []
         for root in self.disagreement_eigenvalues(bits):
-            square = modulus_squared(root.real, root.imag)
-            if square.lower <= 0:
+            if root.square.lower <= 0:
                 return None
-            bounds.append(root.real * 2 / square)
+            bounds.append(root.real * 2 / root.square)
         return Interval(min(b.lower for b in bounds), min(b.upper for b in bounds))
 
 
-def modulus_squared(real: Interval, imag: Interval) -> Interval:
-    """``real^2 + imag^2``, at least 0."""
-    square = real * real + imag * imag
-    return Interval(max(square.lower, Fraction(0)), square.upper)
+def decrease(laplacian: Matrix, mu: Fraction) -> Matrix:
+    """``S = 2 L_s - mu L^T L``, so that ``norm(P x)^2 = norm(x)^2 - mu x^T S x``; a rational mu."""
+    return laplacian + laplacian.transpose() - exact.scaled(laplacian.transpose() * laplacian, mu)
 
 
-def gram(laplacian: Matrix, mu: Fraction) -> Matrix:
-    """``P^T P - J`` at a rational mu: its eigenvalues are the squared singular values of P on 1perp, and 0."""
-    n = laplacian.nrows()
-    p = exact.identity(n) - exact.scaled(laplacian, mu)
-    return p.transpose() * p - exact.scaled(exact.all_ones(n), Fraction(1, n))
+def least_decrease(laplacian: Matrix, mu: Fraction, bits: int) -> Interval:
+    """The smallest eigenvalue nu of S on 1perp, for a balanced graph: ``sigma^2 = 1 - mu nu``. Rigorous."""
+    polynomial, scale = integer_characteristic_polynomial(decrease(laplacian, mu))
+    return real_roots(without_zero_root(polynomial), bits)[0][0] / scale
 
 
-def exact_sigma_squared(laplacian: Matrix, mu: Fraction, bits: int) -> Interval:
-    """The square of the largest singular value of ``I - mu L`` on 1perp, for a balanced graph and a rational mu.
-
-    It is the largest eigenvalue of ``P^T P - J``, since P and P^T keep the vector 1.
-    """
-    polynomial, scale = integer_characteristic_polynomial(gram(laplacian, mu))
-    return real_roots(polynomial, bits)[-1][0] / scale
+def sigma_at(laplacian: Matrix, mu: Fraction, bits: int) -> Interval:
+    """sigma at a rational mu, for a balanced graph. Rigorous."""
+    return square_root(1 - least_decrease(laplacian, mu, bits) * mu, bits)

@@ -1,0 +1,38 @@
+"""``norm u_k <= norm u_0`` for every k, for the x_0 of the design. Source: the paper's eqL3; theory, section 3."""
+
+from __future__ import annotations
+
+from fomas_verify.claims.verdict import Decision, Verdict, undecided
+from fomas_verify.enclosure.digits import decimal
+from fomas_verify.exact.matrix import apply
+from fomas_verify.spectrum.control import follow
+from fomas_verify.spectrum.loop import Loop
+from fomas_verify.spectrum.precision import SAMPLE_PRECISIONS
+
+ID = "trajectory-norm-bound"
+STATEMENT = "norm u_k <= norm u_0 for every k >= 0, for the x_0 of the design"
+SOURCE = "eqL3"
+COQ = ""
+
+
+def decide(loop: Loop) -> Decision:
+    """Follow the trajectory until its tail is bounded, as to the truth."""
+    x0 = list(loop.design.x0 or ())
+    if not any(apply(loop.laplacian, x0)):
+        return Decision(Verdict.PROVED, {}, "the agents agree already: u_k = 0 for every k")
+    for bits in SAMPLE_PRECISIONS:
+        found = follow(loop, x0, bits)
+        if found.above is not None:
+            reason = f"norm u_{found.above} / norm u_0 = {decimal(found.largest, 18)}"
+            return Decision(
+                Verdict.REFUTED,
+                {"k": found.above},
+                reason,
+                "From this initial state a later control exceeds the first: size the actuator for the peak.",
+                "see control-norm-bound",
+            )
+        if found.tail is not None:
+            largest = f"norm u_{found.at} / norm u_0 = {decimal(found.largest, 18)} is the largest seen"
+            witness = {"samples": found.tail.last, "powers": found.tail.powers}
+            return Decision(Verdict.PROVED, witness, f"{largest}; no later one exceeds 1, by the decay of P^n")
+    return undecided(bits, f"{found.examined} samples do not tell")

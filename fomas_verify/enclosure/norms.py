@@ -1,0 +1,104 @@
+"""Spectral norms of matrices of balls, by repeated squaring.
+
+With ``G = A^T A`` and s squarings, ``trace(G^(2^s))^(1/2^s)`` bounds the largest eigenvalue of G from above, and
+a weighted mean of the eigenvalues from below; the two meet as s grows. Rigorous.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+
+from flint import arb, arb_mat, fmpz
+
+from fomas_verify.enclosure.interval import Interval
+from fomas_verify.enclosure.real import exact_end, to_ball, to_fmpq, to_interval
+from fomas_verify.exact.matrix import Matrix, to_rows
+
+BallMatrix = arb_mat
+
+
+def ball_identity(n: int) -> BallMatrix:
+    """The n x n identity."""
+    return arb_mat(n, n, [arb(int(i == j)) for i in range(n) for j in range(n)])
+
+
+def plus_multiple(a: BallMatrix, x: Interval, b: BallMatrix) -> BallMatrix:
+    """``A + x B``."""
+    return a + b * to_ball(x)
+
+
+def perron_matrix(laplacian: Matrix, mu: Interval) -> BallMatrix:
+    """``I - mu L`` with mu enclosed, at the precision in force."""
+    n, gain = laplacian.nrows(), to_ball(mu)
+    rows = to_rows(laplacian)
+    return arb_mat(n, n, [arb(int(i == j)) - gain * arb(to_fmpq(rows[i][j])) for i in range(n) for j in range(n)])
+
+
+def centering(n: int) -> BallMatrix:
+    """``I - J``, which takes from each column its mean: for A that keeps the vector 1, ``norm((I - J) A)`` is the
+    norm on 1perp.
+    """
+    share = arb(1) / n
+    return arb_mat(n, n, [int(i == j) - share for i in range(n) for j in range(n)])
+
+
+def spectral_norm(a: BallMatrix, squarings: int) -> Interval:
+    """The 2-norm of A, its relative width about ``ln(N) / 2^(squarings + 1)`` at the most; rigorous."""
+    gram = a.transpose() * a
+    shifts = []
+    for _ in range(squarings):
+        shift = _magnitude(gram)
+        shifts.append(shift)
+        gram = gram * (arb(2) ** -shift)
+        gram = gram * gram
+    trace = _trace(gram)
+    if not trace.abs_upper() > 0:
+        return Interval.exactly(0)
+    square = _trace(gram * gram)
+    upper = square.nonnegative_part().sqrt()
+    lower = square / trace if trace > 0 else arb(0)
+    low, high = lower.nonnegative_part().lower(), upper.upper()
+    for shift in reversed(shifts):
+        low, high = (x.nonnegative_part().sqrt() * (arb(2) ** shift) for x in (low, high))
+    low, high = low.nonnegative_part().sqrt(), high.nonnegative_part().sqrt()
+    return Interval(max(exact_end(low.lower()), Fraction(0)), exact_end(high.upper()))
+
+
+def _trace(a: BallMatrix) -> arb:
+    return sum((a[i, i] for i in range(a.nrows())), arb(0))
+
+
+def _magnitude(a: BallMatrix) -> int:
+    """An exponent near that of the trace."""
+    upper = _trace(a).abs_upper()
+    if not upper > 0:
+        return 0
+    mantissa, exponent = upper.man_exp()
+    return int(exponent) + fmpz(mantissa).bit_length()
+
+
+def squared_image(a: BallMatrix, vector: Sequence[Fraction]) -> Interval:
+    """The square of the norm of A v; rigorous."""
+    image = a * arb_mat(len(vector), 1, [arb(to_fmpq(x)) for x in vector])
+    return to_interval(sum((image[i, 0] ** 2 for i in range(image.nrows())), arb(0)))
+
+
+def approx_preimage_of_top(a: BallMatrix, laplacian: Matrix) -> list[Fraction]:
+    """A vector x near which ``norm(A L x) / norm(L x)`` is largest, its largest entry 1; approximate.
+
+    It solves ``(L + J) x = w`` for the top right singular vector w of ``(I - J) A``.
+    """
+    n = a.nrows()
+    top = centering(n) * a
+    gram = (top.transpose() * top).mid()
+    for _ in range(16):
+        gram = gram * (arb(2) ** -_magnitude(gram))
+        gram = (gram * gram).mid()
+    best = max(range(n), key=lambda i: exact_end(gram[i, i]))
+    column = arb_mat(n, 1, [gram[i, best] for i in range(n)])
+    shifted = arb_mat(laplacian) + arb_mat(n, n, [arb(1) / n] * (n * n))
+    x = [exact_end(shifted.solve(column)[i, 0].mid()) for i in range(n)]
+    x = [entry - x[-1] for entry in x]
+    largest = max(map(abs, x)) or Fraction(1)
+    return [entry / largest for entry in x]
