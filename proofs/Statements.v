@@ -3,7 +3,7 @@
     yet is listed as open in index.toml. Labels such as eqT2 are the paper's. *)
 From Coq Require Import Reals Arith List.
 From Coquelicot Require Import Coquelicot.
-From Fomas Require Import Model.Vectors Model.Kernel Model.Gamma Model.Graph Model.Loop.
+From Fomas Require Import Model.Vectors Model.Kernel Model.Gamma Model.Graph Model.Loop Model.Examples.
 Open Scope R_scope.
 
 (** * 1. The memory kernel *)
@@ -60,7 +60,7 @@ Definition gamma_function_statement : Prop := forall z, 0 < z ->
   0 < Gamma z /\ Gamma (z + 1) = z * Gamma z.
 
 (** The integral of the kernel over an interval. *)
-Definition kernel_integral_statement : Prop := forall alpha t a b,
+Definition kernel_integral_formula_statement : Prop := forall alpha t a b,
   0 < alpha < 1 -> a < b <= t ->
   is_RInt_gen (fun tau => Rpower (t - tau) (alpha - 1)) (at_point a) (at_left b)
     ((rpow (t - a) alpha - rpow (t - b) alpha) / alpha) /\
@@ -132,7 +132,7 @@ Definition quadratic_form_statement : Prop := forall N A x, balanced N A ->
     / 2 * \sum_(i < N) \sum_(j < N) (A i j * (x i - x j) ^ 2).
 
 (** ||L x||^2 <= 2 D x^T L_s x. *)
-Definition laplacian_norm_statement : Prop := forall N A x, digraph N A -> balanced N A ->
+Definition laplacian_norm_bound_statement : Prop := forall N A x, digraph N A -> balanced N A ->
   norm N (mv N (laplacian N A) x) ^ 2
   <= 2 * degree_max N A * form N (laplacian_sym N A) x.
 
@@ -314,7 +314,6 @@ Definition eqL3_needs_eqT2_statement : Prop := forall N A alpha gamma h lambda2,
 (** Where beta < -sqrt(c_2), (14) is not necessary for eqL3: on two agents that hear each
     other, D = 1 and lambda2 = 2, eqL3 holds for every mu from 1/2 to 1, and (14) fails for
     those with 1 - 2 mu < -sqrt(c_2). *)
-Definition pair_graph : mat := fun i j => if Nat.eqb i j then 0 else 1.
 Definition eqT2_not_necessary_statement : Prop := forall alpha gamma h,
   design alpha gamma h -> let mu := mu_of alpha gamma h in
   / 2 <= mu <= 1 ->
@@ -324,20 +323,6 @@ Definition eqT2_not_necessary_statement : Prop := forall alpha gamma h,
    ~ memory_inequality alpha (1 - mu * 2)).
 
 (** * 6. The paper's example *)
-
-(** The edges of section IV; agent i of the paper is index i - 1. *)
-Definition paper_edges : list (nat * nat) :=
-  ((1, 4) :: (1, 5) :: (2, 1) :: (2, 3) :: (3, 1) :: (3, 2) :: (4, 2) :: (4, 3) :: (5, 4) :: nil)%nat.
-Definition paper_graph : mat := fun i j =>
-  if existsb (fun e => Nat.eqb (fst e) (S i) && Nat.eqb (snd e) (S j))%bool paper_edges
-  then 1 else 0.
-Definition paper_alpha : R := 9 / 10.
-Definition paper_gamma : R := 15 / 100.
-Definition paper_h : R := 85 / 100.
-Definition paper_mu : R := mu_of paper_alpha paper_gamma paper_h.
-Definition of_list (l : list R) : vec := fun i => nth i l 0.
-Definition paper_x0 : vec := of_list (9 / 2 :: 5 :: 6 :: 3 / 2 :: -1 :: nil).
-Definition counter_x0 : vec := of_list (0 :: -1 :: -1 :: -1 :: 1 :: nil).
 
 Definition gamma_19_statement : Prop := 955 / 1000 <= Gamma (19 / 10) <= 967 / 1000.
 
@@ -454,3 +439,33 @@ Definition emptiness_statement : Prop := forall N A n (u v : nat -> vec) mu_max 
   (forall mu s, contracts N A mu s -> a - mu * b <= s * nn) /\
   (t * nn < a -> t * nn < a - mu_max * b ->
    forall mu s, 0 <= mu <= mu_max -> contracts N A mu s -> t < s).
+
+(** * 8. Three claims are one *)
+
+(** Under Assumption 1, for any mu > 0 of a design, (15) or not: all controls vanish, all
+    states reach the average, and P^k v -> 0 on 1perp are the same; and then the decay is
+    geometric. *)
+Definition vanishes_on_1perp (N : nat) (A : mat) (mu : R) : Prop :=
+  forall v, zero_sum N v -> forall i, (i < N)%nat ->
+  is_lim_seq (fun k => iter k (mv N (perron N A mu)) v i) 0.
+Definition claims_equivalent_statement : Prop := forall N A alpha gamma h,
+  (2 <= N)%nat -> assumption1 N A -> design alpha gamma h ->
+  let mu := mu_of alpha gamma h in
+  ((forall x0 x u, closed_loop N A alpha gamma h x0 x u ->
+      forall i, (i < N)%nat -> is_lim_seq (fun k => u k i) 0) <-> vanishes_on_1perp N A mu) /\
+  ((forall x0 x u, closed_loop N A alpha gamma h x0 x u ->
+      forall i, (i < N)%nat -> is_lim (fun t => x t i) p_infty (mean N x0))
+   <-> vanishes_on_1perp N A mu).
+Definition decay_from_vanishing_statement : Prop := forall N A mu,
+  (1 <= N)%nat -> balanced N A -> vanishes_on_1perp N A mu ->
+  exists C rho, 0 <= C /\ 0 <= rho < 1 /\ decays_on_1perp N (mv N (perron N A mu)) C rho.
+
+(** Decay on 1perp bounds every eigenvalue a + b i other than 1 by rho. *)
+Definition eigenvalues_from_decay_statement : Prop := forall N A mu C rho a b x y,
+  balanced N A -> 0 <= C -> 0 <= rho ->
+  let P := mv N (perron N A mu) in
+  decays_on_1perp N P C rho ->
+  0 < dot N x x + dot N y y ->
+  (forall i, (i < N)%nat -> P x i = a * x i - b * y i) ->
+  (forall i, (i < N)%nat -> P y i = b * x i + a * y i) ->
+  ~ (a = 1 /\ b = 0) -> a ^ 2 + b ^ 2 <= rho ^ 2.

@@ -2,7 +2,7 @@
 From Coq Require Import Reals Lra.
 From Coquelicot Require Import Coquelicot.
 From Interval Require Import Tactic.
-From Fomas Require Import Model.Vectors Model.Kernel Model.Gamma Model.Loop Statements.
+From Fomas Require Import Model.Vectors Model.Kernel Model.Gamma Model.Loop Model.Examples Statements.
 From Fomas Require Import Facts.Kernel Facts.Gamma.
 Open Scope R_scope.
 

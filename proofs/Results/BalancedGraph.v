@@ -12,7 +12,7 @@ Proof.
   rewrite form_sym. apply form_laplacian, bal.
 Qed.
 
-Theorem laplacian_norm_bound : laplacian_norm_statement.
+Theorem laplacian_norm_bound : laplacian_norm_bound_statement.
 Proof.
   intros N A x dig bal. rewrite norm_pow2, form_sym. apply laplacian_norm; assumption.
 Qed.

@@ -3,7 +3,7 @@ From Coq Require Import Reals Arith Lia Lra.
 From Coquelicot Require Import Coquelicot.
 From Fomas Require Import Model.Vectors Model.Kernel Model.Gamma Model.Graph Model.Loop Statements.
 From Fomas Require Import Facts.Sums Facts.Vectors Facts.Kernel Facts.Resolvent Facts.Gamma.
-From Fomas Require Import Facts.Graph Facts.Loop.
+From Fomas Require Import Facts.Graph Facts.Loop Facts.Phi.
 Open Scope R_scope.
 
 Theorem closed_loop_exists : closed_loop_exists_statement.
@@ -38,18 +38,5 @@ Qed.
 
 Theorem phi_recursion : phi_recursion_statement.
 Proof.
-  intros N M alpha y k i Ha Hi. split.
-  - unfold Phi at 1. rewrite sum_first, Nat.sub_0_r. simpl iter.
-    unfold Phi. rewrite mv_sum.
-    rewrite (sum_ext (S k) (fun l => mv N M (fun j => rk alpha (k - l) * iter l (mv N M) y j) i)
-               (fun l => rk alpha (k - l) * mv N M (iter l (mv N M) y) i))
-      by (intros; apply mv_scal).
-    rewrite Rplus_comm. f_equal.
-  - assert (E := resolvent_solves alpha (fun j => iter j (mv N M) y i) k). cbv zeta beta in E.
-    unfold Phi. rewrite <- E.
-    rewrite (sum_ext k (fun l => Rabs (fk alpha (S l)) * _)
-               (fun l => - (fk alpha (S l) *
-                  \sum_(j < S (k - S l)) (rk alpha (k - S l - j) * iter j (mv N M) y i)))).
-    + rewrite sum_opp. ring.
-    + intros l _. rewrite Rabs_left by (apply fk_neg, Ha). ring.
+  intros N M alpha y k i Ha Hi. split; [apply phi_step|apply phi_convolution]; assumption.
 Qed.

@@ -6,6 +6,33 @@ From Fomas Require Import Facts.Sums Facts.Vectors Facts.Kernel Facts.Resolvent 
 From Fomas Require Import Facts.Lambda2 Facts.Contraction.
 Open Scope R_scope.
 
+(** The parts of an eigenvector for an eigenvalue a + b i other than 1 lie in 1perp. *)
+Lemma eigenvector_zero_sum N A mu a b x y : balanced N A ->
+  (forall i, (i < N)%nat -> mv N (perron N A mu) x i = a * x i - b * y i) ->
+  (forall i, (i < N)%nat -> mv N (perron N A mu) y i = b * x i + a * y i) ->
+  ~ (a = 1 /\ b = 0) -> zero_sum N x /\ zero_sum N y.
+Proof.
+  intros bal Ex Ey Hne.
+  assert (Sx : sum_lt N x = a * sum_lt N x - b * sum_lt N y).
+  { rewrite <- (sum_perron N A bal mu x) at 1.
+    rewrite (sum_ext N _ _ Ex), sum_minus, !sum_scal. reflexivity. }
+  assert (Sy : sum_lt N y = b * sum_lt N x + a * sum_lt N y).
+  { rewrite <- (sum_perron N A bal mu y) at 1.
+    rewrite (sum_ext N _ _ Ey), sum_plus, !sum_scal. reflexivity. }
+  assert (K : (1 - a) ^ 2 + b ^ 2 <> 0).
+  { intros K. apply Hne. assert (Q1 := pow2_ge_0 (1 - a)). assert (Q2 := pow2_ge_0 b).
+    split; nra. }
+  split; unfold zero_sum; apply Rmult_eq_reg_l with ((1 - a) ^ 2 + b ^ 2); try exact K.
+  - replace (((1 - a) ^ 2 + b ^ 2) * sum_lt N x)
+      with ((1 - a) * (sum_lt N x - (a * sum_lt N x - b * sum_lt N y))
+            + - b * (sum_lt N y - (b * sum_lt N x + a * sum_lt N y))) by ring.
+    rewrite <- Sx, <- Sy. ring.
+  - replace (((1 - a) ^ 2 + b ^ 2) * sum_lt N y)
+      with (b * (sum_lt N x - (a * sum_lt N x - b * sum_lt N y))
+            + (1 - a) * (sum_lt N y - (b * sum_lt N x + a * sum_lt N y))) by ring.
+    rewrite <- Sx, <- Sy. ring.
+Qed.
+
 Theorem perron_eigenvalues : perron_eigenvalues_statement.
 Proof.
   intros N A mu HN H1 HG P. destruct (gain_bound_lt N A mu HG) as [Hm HD].
@@ -37,27 +64,7 @@ Proof.
     intros i Hi. assert (Z1 := Z i Hi). assert (Z2 := Z 0%nat ltac:(lia)). lra.
   - intros a b x y Pxy Ex Ey Hne.
     (* both parts lie in 1perp, where |P x|^2 + |P y|^2 = (a^2 + b^2) (|x|^2 + |y|^2) *)
-    assert (Sx : sum_lt N x = a * sum_lt N x - b * sum_lt N y).
-    { rewrite <- (sum_perron N A bal mu x) at 1. fold P.
-      rewrite (sum_ext N (P x) _ Ex), sum_minus, !sum_scal. reflexivity. }
-    assert (Sy : sum_lt N y = b * sum_lt N x + a * sum_lt N y).
-    { rewrite <- (sum_perron N A bal mu y) at 1. fold P.
-      rewrite (sum_ext N (P y) _ Ey), sum_plus, !sum_scal. reflexivity. }
-    assert (K : (1 - a) ^ 2 + b ^ 2 <> 0).
-    { intros K. apply Hne. assert (Q1 := pow2_ge_0 (1 - a)). assert (Q2 := pow2_ge_0 b).
-      split; nra. }
-    assert (Zx : zero_sum N x).
-    { unfold zero_sum. apply Rmult_eq_reg_l with ((1 - a) ^ 2 + b ^ 2); [|exact K].
-      replace (((1 - a) ^ 2 + b ^ 2) * sum_lt N x)
-        with ((1 - a) * (sum_lt N x - (a * sum_lt N x - b * sum_lt N y))
-              + - b * (sum_lt N y - (b * sum_lt N x + a * sum_lt N y))) by ring.
-      rewrite <- Sx, <- Sy. ring. }
-    assert (Zy : zero_sum N y).
-    { unfold zero_sum. apply Rmult_eq_reg_l with ((1 - a) ^ 2 + b ^ 2); [|exact K].
-      replace (((1 - a) ^ 2 + b ^ 2) * sum_lt N y)
-        with (b * (sum_lt N x - (a * sum_lt N x - b * sum_lt N y))
-              + (1 - a) * (sum_lt N y - (b * sum_lt N x + a * sum_lt N y))) by ring.
-      rewrite <- Sx, <- Sy. ring. }
+    destruct (eigenvector_zero_sum N A mu a b x y bal Ex Ey Hne) as [Zx Zy].
     assert (Cx := contracts_dot N A mu s x Hc Zx). assert (Cy := contracts_dot N A mu s y Hc Zy).
     fold P in Cx, Cy.
     rewrite (dot_ext N _ _ _ _ Ex Ex) in Cx. rewrite (dot_ext N _ _ _ _ Ey Ey) in Cy.

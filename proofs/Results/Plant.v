@@ -11,7 +11,7 @@ Proof.
   intros z Hz. split; [apply Gamma_correct|split; [apply Gamma_pos|apply Gamma_succ]]; exact Hz.
 Qed.
 
-Theorem kernel_integral_formula : kernel_integral_statement.
+Theorem kernel_integral_formula : kernel_integral_formula_statement.
 Proof.
   intros alpha t a b Ha H. split; [apply kernel_integral_correct|apply kernel_integral_value];
     assumption.
