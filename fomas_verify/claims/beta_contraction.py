@@ -48,8 +48,7 @@ def decide(loop: Loop) -> Decision:
 def remedy(loop: Loop, bits: int) -> str:
     """What would make the step true, where anything does."""
     if loop.laplacian == loop.laplacian.transpose():
-        spectrum = loop.symmetric_spectrum(bits)
-        return lower_mu(loop, 2 / (spectrum[0][0] + spectrum[-1][0]).upper)
+        return lower_mu(loop, 2 / (loop.lambda2(bits) + loop.lambda_max(bits)).upper)
     root = lambda2_root(loop, bits)
     if root is None or not field_is_small(loop, root):
         return "repaired-condition has sigma in place of beta"

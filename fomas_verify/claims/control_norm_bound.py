@@ -58,7 +58,7 @@ def examine(loop: Loop, bits: int) -> Search:
 def _symmetric_witness(loop: Loop, bits: int) -> dict[str, Any] | None:
     if loop.laplacian != loop.laplacian.transpose() or loop.beta(bits).upper > loop.threshold(bits).lower:
         return None
-    mu, largest = loop.mu(bits).upper, loop.symmetric_spectrum(bits)[-1][0].upper
+    mu, largest = loop.mu(bits).upper, loop.lambda_max(bits).upper
     room = (2 / (mu * largest) - 1) / 3
     if room < 0:
         return None

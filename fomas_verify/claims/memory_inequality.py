@@ -93,4 +93,5 @@ def _is_tie(loop: Loop, bits: int) -> bool:
     lambda2 = loop.lambda2(bits)
     tie = (1 - loop.threshold(bits)) / mu
     neighbours = [root for root, _ in loop.symmetric_spectrum(bits) if root.overlaps(tie)]
-    return divides(quadratic, loop.symmetric_characteristic) and neighbours == [lambda2]
+    isolated = len(neighbours) == 1 and neighbours[0].overlaps(lambda2)
+    return isolated and divides(quadratic, loop.symmetric_characteristic)

@@ -7,6 +7,7 @@ Equality never happens for a rational mu (theory, section 7). Source: theory, se
 from __future__ import annotations
 
 from fractions import Fraction
+from functools import cache
 
 from fomas_verify.claims.remedy import DIGITS, lower_mu, raise_mu
 from fomas_verify.claims.verdict import Decision, Verdict, undecided
@@ -38,6 +39,7 @@ def decide(loop: Loop) -> Decision:
     return undecided(bits, " and ".join(numbers))
 
 
+@cache
 def remedy(loop: Loop) -> str:
     """The nearest mu that satisfies the condition, seen to satisfy it; or that there is none."""
     threshold = loop.threshold(128)

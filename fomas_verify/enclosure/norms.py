@@ -98,7 +98,8 @@ def approx_preimage_of_top(a: BallMatrix, laplacian: Matrix) -> list[Fraction]:
     best = max(range(n), key=lambda i: exact_end(gram[i, i]))
     column = arb_mat(n, 1, [gram[i, best] for i in range(n)])
     shifted = arb_mat(laplacian) + arb_mat(n, n, [arb(1) / n] * (n * n))
-    x = [exact_end(shifted.solve(column)[i, 0].mid()) for i in range(n)]
+    solved = shifted.solve(column)
+    x = [exact_end(solved[i, 0].mid()) for i in range(n)]
     x = [entry - x[-1] for entry in x]
     largest = max(map(abs, x)) or Fraction(1)
     return [entry / largest for entry in x]

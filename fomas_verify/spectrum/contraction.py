@@ -69,7 +69,7 @@ def lambda2_root(loop: Loop, bits: int) -> Lambda2Root | None:
     """lambda2 exactly; None where the precision does not tell its irreducible factor."""
     target = loop.lambda2(bits)
     scale = Fraction(1, loop.symmetric_scale)
-    hits = []
+    hits: list[tuple[Polynomial, Interval]] = []
     for factor in irreducible_factors(loop.symmetric_characteristic):
         roots = [root for root, _ in real_roots(factor, bits) if (root * scale).overlaps(target)]
         hits += [(factor, root * scale) for root in roots]
@@ -123,8 +123,7 @@ def beta_contraction_witness(loop: Loop, bits: int) -> dict[str, object] | None:
 
 def _symmetric_witness(loop: Loop, bits: int) -> dict[str, object] | None:
     """On a symmetric graph the step holds iff ``mu (lambda2 + lambda_N) <= 2``; short numbers that show it strictly."""
-    mu, spectrum = loop.mu(bits).upper, loop.symmetric_spectrum(bits)
-    smallest, largest = spectrum[0][0].upper, spectrum[-1][0].upper
+    mu, smallest, largest = loop.mu(bits).upper, loop.lambda2(bits).upper, loop.lambda_max(bits).upper
     room = (2 / (mu * (smallest + largest)) - 1) / 3
     if room <= 0:
         return None
@@ -156,13 +155,13 @@ def contraction_interval(loop: Loop, factor: Interval, *, cuts: int = 40) -> Int
         if lower > upper:
             return None
         end = lower if cut % 2 == 0 else upper
-        e = _last(directions(loop, short_dyadic(end * (1 - Fraction(1, 1 << 60)), end), 96))
+        e = _last(directions(loop, short_dyadic(end * (1 - Fraction(1, 1 << 60)), end), 64))
         allowed = _parabola_interval(loop, e, factor.upper)
         if allowed is None:
             return None
         moved = allowed.lower - lower, upper - allowed.upper
         lower, upper = max(lower, allowed.lower), min(upper, allowed.upper)
-        settled = settled + 1 if max(moved) * (1 << 48) < upper else 0
+        settled = settled + 1 if max(moved) * (1 << 32) < upper else 0
         if settled > 1:
             break
     return Interval(lower, upper) if lower <= upper else None

@@ -16,7 +16,7 @@ from fomas_verify.enclosure.norms import BallMatrix, approx_preimage_of_top, squ
 from fomas_verify.enclosure.real import square_root, working_precision
 from fomas_verify.exact import matrix as exact
 from fomas_verify.spectrum.loop import Loop
-from fomas_verify.spectrum.samples import COARSE, FINE, MIDDLE, Samples, Tail, TailTest, phi_at
+from fomas_verify.spectrum.samples import COARSE, FINE, ROUGH, Samples, Tail, TailTest, phi_at
 
 EXACT_POWER_WORK = 4_000
 """Bound on ``k`` times the bits of mu's denominator, for a norm of P^k decided exactly at a rational mu."""
@@ -115,7 +115,7 @@ def certified_rate(loop: Loop, bits: int) -> Rate | None:
         for _ in range(RATE_LEVELS):
             power, bound, worst = base, shrink, Fraction(1)
             for _ in range(RATE_BASE - 1):
-                ratio = (Interval.exactly(run.norm(power, MIDDLE).upper) / bound).upper
+                ratio = (Interval.exactly(run.norm(power, ROUGH).upper) / bound).upper
                 if ratio <= 1:
                     kappa = round_up(kappa * worst, bits)
                     return Rate(short_dyadic(kappa, kappa * Fraction(1001, 1000)), rho)

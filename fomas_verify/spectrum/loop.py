@@ -14,7 +14,7 @@ from functools import cache, cached_property
 from fomas_verify.design import Design
 from fomas_verify.enclosure.interval import Interval
 from fomas_verify.enclosure.real import square_root
-from fomas_verify.enclosure.roots import Root, complex_roots, real_roots
+from fomas_verify.enclosure.roots import Root, complex_roots, greatest_root, least_root, real_roots
 from fomas_verify.exact import matrix as exact
 from fomas_verify.exact.matrix import Matrix
 from fomas_verify.exact.polynomial import Polynomial, integer_characteristic_polynomial, without_zero_root
@@ -98,9 +98,15 @@ class Loop:
         roots = real_roots(self.symmetric_characteristic, bits)
         return [(root / self.symmetric_scale, count) for root, count in roots]
 
+    @cache  # noqa: B019
     def lambda2(self, bits: int) -> Interval:
         """The smallest eigenvalue of L_s on 1perp; exact where it is a multiple of 1/scale."""
-        return self.symmetric_spectrum(bits)[0][0]
+        return least_root(self.symmetric_characteristic, bits) / self.symmetric_scale
+
+    @cache  # noqa: B019
+    def lambda_max(self, bits: int) -> Interval:
+        """The largest eigenvalue of L_s on 1perp."""
+        return greatest_root(self.symmetric_characteristic, bits) / self.symmetric_scale
 
     def beta(self, bits: int) -> Interval:
         """``1 - mu lambda2``."""
@@ -145,7 +151,7 @@ def decrease(laplacian: Matrix, mu: Fraction) -> Matrix:
 def least_decrease(laplacian: Matrix, mu: Fraction, bits: int) -> Interval:
     """The smallest eigenvalue nu of S on 1perp, for a balanced graph: ``sigma^2 = 1 - mu nu``. Rigorous."""
     polynomial, scale = integer_characteristic_polynomial(decrease(laplacian, mu))
-    return real_roots(without_zero_root(polynomial), bits)[0][0] / scale
+    return least_root(without_zero_root(polynomial), bits) / scale
 
 
 def sigma_at(laplacian: Matrix, mu: Fraction, bits: int) -> Interval:

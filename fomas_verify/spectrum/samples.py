@@ -27,8 +27,8 @@ from fomas_verify.enclosure.real import working_precision
 from fomas_verify.kernel.memory import resolvent, step_response
 from fomas_verify.spectrum.loop import Loop
 
-COARSE, MIDDLE, FINE = 4, 14, 52
-"""Squarings of a norm on the way and of one that decides: relative widths of about 5 %, 5e-5 and 1e-15."""
+COARSE, ROUGH, MIDDLE, FINE = 4, 7, 14, 52
+"""Squarings of a norm on the way and of one that decides: relative widths of about 5 %, 1 %, 5e-5 and 1e-15."""
 
 SAMPLE_WORK, MOST_SAMPLES, FEWEST_SAMPLES = 500_000_000, 50_000, 200
 """Bounds on ``K N^3`` and on K, the last sample examined; K may always reach the third."""
