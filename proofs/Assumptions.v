@@ -12,6 +12,7 @@ From Fomas Require Import Results.Perron.
 From Fomas Require Import Results.Consensus.
 From Fomas Require Import Results.NormBound.
 From Fomas Require Import Results.Soundness.
+From Fomas Require Import Results.Equivalence.
 From Fomas Require Import Instances.Gamma19.
 From Fomas Require Import Instances.PaperExample.
 From Fomas Require Import Instances.PairGraph.
@@ -91,6 +92,8 @@ Goal True. idtac "==" "eqL3_characterised". Abort.
 Print Assumptions eqL3_characterised.
 Goal True. idtac "==" "eqL3_needs_eqT2". Abort.
 Print Assumptions eqL3_needs_eqT2.
+Goal True. idtac "==" "remark1". Abort.
+Print Assumptions remark1.
 Goal True. idtac "==" "ldlt". Abort.
 Print Assumptions ldlt.
 Goal True. idtac "==" "residual_factor". Abort.
@@ -113,6 +116,12 @@ Goal True. idtac "==" "hyperplane". Abort.
 Print Assumptions hyperplane.
 Goal True. idtac "==" "emptiness". Abort.
 Print Assumptions emptiness.
+Goal True. idtac "==" "decay_from_vanishing". Abort.
+Print Assumptions decay_from_vanishing.
+Goal True. idtac "==" "claims_equivalent". Abort.
+Print Assumptions claims_equivalent.
+Goal True. idtac "==" "eigenvalues_from_decay". Abort.
+Print Assumptions eigenvalues_from_decay.
 Goal True. idtac "==" "gamma_19". Abort.
 Print Assumptions gamma_19.
 Goal True. idtac "==" "paper_hypotheses". Abort.

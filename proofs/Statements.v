@@ -237,6 +237,14 @@ Definition theorem1_as_stated_statement : Prop := forall N A alpha gamma h lambd
   (forall i j, (i < N)%nat -> (j < N)%nat -> is_lim (fun t => Rabs (x t i - x t j)) p_infty 0) /\
   (forall i, (i < N)%nat -> is_lim (fun t => x t i) p_infty (mean N x0)).
 
+(** Remark 1: agents with n coordinates are n copies of the loop; eqL3 for one gives it for
+    the norm over all coordinates, and consensus holds coordinate by coordinate. *)
+Definition remark1_statement : Prop :=
+  forall N A alpha gamma h n (x0 : nat -> vec) (x : nat -> R -> vec) (u : nat -> nat -> vec),
+  (forall d, (d < n)%nat -> closed_loop N A alpha gamma h (x0 d) (x d) (u d)) ->
+  control_norm_bound N A alpha gamma h -> forall k,
+  sqrt (\sum_(d < n) (norm N (u d k) ^ 2)) <= sqrt (\sum_(d < n) (norm N (u d 0%nat) ^ 2)).
+
 (** Three claims are one: for a balanced graph, if every control of the loop vanishes then
     so does P^k u_0. *)
 Definition control_vanishes_converse_statement : Prop := forall N A alpha gamma h x0 x u,
@@ -332,12 +340,17 @@ Definition paper_hypotheses_statement : Prop :=
   gain_bound 5 paper_graph paper_mu /\
   memory_inequality paper_alpha (1 - paper_mu * 1).
 
-(** Yet the step ||e_{k+1}|| <= beta ||e_k|| of equ1u0 and equk+1u0_1 fails at k = 4 on the
-    paper's own trajectory. *)
-Definition paper_step_false_statement : Prop := forall x u,
-  closed_loop 5 paper_graph paper_alpha paper_gamma paper_h paper_x0 x u ->
-  (1 - paper_mu * 1) * norm 5 (error 5 paper_graph paper_h x 4)
-  < norm 5 (error 5 paper_graph paper_h x 5).
+(** Yet the step ||e_{k+1}|| <= beta ||e_k|| of equ1u0 and equk+1u0_1 fails: at k = 4 on the
+    paper's own trajectory, and at k = 0 from x_0 = (0, -1, -1, -1, 1). *)
+Definition paper_step_false_statement : Prop :=
+  (forall x u,
+     closed_loop 5 paper_graph paper_alpha paper_gamma paper_h paper_x0 x u ->
+     (1 - paper_mu * 1) * norm 5 (error 5 paper_graph paper_h x 4)
+     < norm 5 (error 5 paper_graph paper_h x 5)) /\
+  (forall x u,
+     closed_loop 5 paper_graph paper_alpha paper_gamma paper_h counter_x0 x u ->
+     (1 - paper_mu * 1) * norm 5 (error 5 paper_graph paper_h x 0)
+     < norm 5 (error 5 paper_graph paper_h x 1)).
 
 (** And eqL3 fails, at k = 1, from x_0 = (0, -1, -1, -1, 1). *)
 Definition paper_eqL3_false_statement : Prop :=

@@ -143,9 +143,12 @@ Proof.
   apply Rnot_le_lt. intros C. nra.
 Qed.
 
-Theorem paper_step_false : paper_step_false_statement.
+Lemma step_false_on_trajectory x u :
+  closed_loop 5 paper_graph paper_alpha paper_gamma paper_h paper_x0 x u ->
+  (1 - paper_mu * 1) * norm 5 (error 5 paper_graph paper_h x 4)
+  < norm 5 (error 5 paper_graph paper_h x 5).
 Proof.
-  intros x u H. assert (M := paper_mu_bounds).
+  intros H. assert (M := paper_mu_bounds).
   set (e := fun k => iter k (mv 5 (perron 5 paper_graph paper_mu))
                        (mv 5 (laplacian 5 paper_graph) paper_x0)).
   assert (E : forall k i, (i < 5)%nat -> error 5 paper_graph paper_h x k i = e k i)
@@ -164,6 +167,34 @@ Proof.
   interval with (i_prec 60, i_bisect m, i_taylor m, i_degree 6).
 Qed.
 
+(** L maps (0, -1, -1, -1, 1) to a Fiedler vector that is not an eigenvector of L. *)
+Definition fiedler : vec := of_list (0 :: -1 :: -1 :: 0 :: 2 :: nil)%list.
+
+Lemma counter_laplacian i : (i < 5)%nat ->
+  mv 5 (laplacian 5 paper_graph) counter_x0 i = fiedler i.
+Proof.
+  intros Hi. rewrite laplacian_entry by exact Hi.
+  below5 i; unfold paper_graph, counter_x0, fiedler; cbn; lra.
+Qed.
+
+Lemma step_false_at_start x u :
+  closed_loop 5 paper_graph paper_alpha paper_gamma paper_h counter_x0 x u ->
+  (1 - paper_mu * 1) * norm 5 (error 5 paper_graph paper_h x 0)
+  < norm 5 (error 5 paper_graph paper_h x 1).
+Proof.
+  intros H. assert (M := paper_mu_bounds).
+  rewrite (norm_ext 5 _ fiedler), (norm_ext 5 (error _ _ _ _ 1) (paper_step paper_mu fiedler)).
+  - apply sq_lt_norm; [lra|]. unfold dot, paper_step, fiedler, of_list. simpl. nra.
+  - intros i Hi. rewrite (loop_error 5 paper_graph paper_alpha paper_gamma paper_h counter_x0
+      paper_design x u H 1 i Hi). simpl. rewrite <- paper_step_correct by exact Hi.
+    apply mv_ext, counter_laplacian.
+  - intros i Hi. rewrite (loop_error 5 paper_graph paper_alpha paper_gamma paper_h counter_x0
+      paper_design x u H 0 i Hi). apply counter_laplacian, Hi.
+Qed.
+
+Theorem paper_step_false : paper_step_false_statement.
+Proof. split; [exact step_false_on_trajectory|exact step_false_at_start]. Qed.
+
 Theorem paper_eqL3_false : paper_eqL3_false_statement.
 Proof.
   assert (F : forall x u,
@@ -171,10 +202,7 @@ Proof.
      norm 5 (u 0%nat) < norm 5 (u 1%nat)).
   { intros x u H. assert (M := paper_mu_bounds). assert (C := paper_c1_bounds).
     assert (Ha := proj1 paper_design).
-    set (w := of_list (0 :: -1 :: -1 :: 0 :: 2 :: nil)%list).
-    assert (W : forall i, (i < 5)%nat -> mv 5 (laplacian 5 paper_graph) counter_x0 i = w i).
-    { intros i Hi. rewrite laplacian_entry by exact Hi.
-      below5 i; unfold paper_graph, counter_x0, w; cbn; lra. }
+    assert (W := counter_laplacian). set (w := fiedler) in *.
     assert (U0 : forall i, (i < 5)%nat -> u 0%nat i = - paper_gamma * w i).
     { intros i Hi. rewrite <- W by exact Hi.
       apply (loop_u0 5 paper_graph paper_alpha paper_gamma paper_h counter_x0 paper_design x u H i Hi). }
@@ -193,7 +221,7 @@ Proof.
     apply Rmult_lt_compat_l; [exact G|].
     rewrite <- (Rmult_1_l (norm 5 w)). apply sq_lt_norm; [lra|].
     revert M C. generalize paper_mu c. intros m d M C. apply Rminus_gt_0_lt.
-    unfold dot, paper_step, w, of_list. simpl sum_lt. cbn [List.nth].
+    unfold dot, paper_step, w, fiedler, of_list. simpl sum_lt. cbn [List.nth].
     interval with (i_prec 60, i_bisect m, i_taylor m). }
   split; [exact F|]. intros B.
   assert (HL := exact_loop 5 paper_graph paper_alpha paper_gamma paper_h counter_x0 paper_design).

@@ -259,3 +259,9 @@ Proof.
     eapply Rle_trans; [exact T|]. nra. }
   split; [exact L|]. intros G. apply (eqT2_closed_form alpha beta Ha). lra.
 Qed.
+
+Theorem remark1 : remark1_statement.
+Proof.
+  intros N A alpha gamma h n x0 x u H B k. apply sqrt_le_1_alt, sum_le. intros d Hd.
+  apply pow_incr. split; [apply norm_nonneg|]. apply (B (x0 d) (x d) (u d) (H d Hd) k).
+Qed.

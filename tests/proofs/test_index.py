@@ -1,0 +1,109 @@
+"""The index of the proofs, the Coq files, the README and the claims name the same things."""
+
+import re
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+CLAIMS = {
+    "graph-assumption",
+    "gain-bound",
+    "memory-inequality",
+    "perron-eigenvalues",
+    "beta-contraction",
+    "repaired-condition",
+    "control-norm-bound",
+    "trajectory-norm-bound",
+    "control-bounded",
+    "average-consensus",
+}
+STATUSES = {"proved", "repaired", "refutes", "example"}
+SENTENCES = {"proved", "repaired", "false", "definition", "remark"}
+COMMENT = re.compile(r"\(\*.*?\*\)", re.DOTALL)
+NAMED = re.compile(r"^\s*(?:#\[[^\]]*\]\s*)?(?:Local\s+|Global\s+)?Theorem\s+(\w+)\s*:\s*(\w+)?", re.MULTILINE)
+
+
+@pytest.fixture(scope="module")
+def proofs(checkout: Path) -> Path:
+    return checkout / "proofs"
+
+
+@pytest.fixture(scope="module")
+def index(proofs: Path) -> dict[str, list[dict[str, Any]]]:
+    return tomllib.loads((proofs / "index.toml").read_text("utf-8"))
+
+
+def theorems(source: str) -> dict[str, str]:
+    """Name and first word of the type of every Theorem."""
+    return dict(NAMED.findall(COMMENT.sub("", source)))
+
+
+def test_every_theorem_is_indexed_and_every_entry_exists(proofs: Path, index: dict[str, list[dict[str, Any]]]) -> None:
+    found = {
+        name: str(path.relative_to(proofs))
+        for folder in ("Results", "Instances")
+        for path in sorted((proofs / folder).glob("*.v"))
+        for name in theorems(path.read_text("utf-8"))
+    }
+    listed = {entry["name"]: entry["file"] for entry in index["theorem"]}
+    assert len(listed) == len(index["theorem"])
+    assert found == listed
+
+
+def test_a_headline_theorem_has_the_type_that_statements_gives_it(
+    proofs: Path, index: dict[str, list[dict[str, Any]]]
+) -> None:
+    stated = set(re.findall(r"^Definition (\w+)_statement : Prop", (proofs / "Statements.v").read_text("utf-8"), re.M))
+    headline = {entry["name"]: entry["file"] for entry in index["theorem"] if entry["status"] != "example"}
+    assert set(headline) == stated
+    for name, file in headline.items():
+        assert theorems((proofs / file).read_text("utf-8"))[name] == f"{name}_statement"
+
+
+def test_every_file_is_compiled(proofs: Path) -> None:
+    listed = {line for line in (proofs / "_CoqProject").read_text("utf-8").splitlines() if line.endswith(".v")}
+    present = {str(path.relative_to(proofs)) for path in proofs.rglob("*.v")}
+    assert present - {"Assumptions.v"} == listed
+
+
+def test_statuses_labels_and_claims(index: dict[str, list[dict[str, Any]]]) -> None:
+    for entry in index["theorem"]:
+        assert entry["status"] in STATUSES
+        assert set(entry["claims"]) <= CLAIMS, entry["name"]
+        assert entry["says"]
+    tied = {claim for entry in index["theorem"] for claim in entry["claims"]}
+    assert tied == CLAIMS
+    names = {entry["name"] for entry in index["theorem"]}
+    for sentence in index["sentence"]:
+        assert sentence["status"] in SENTENCES
+        assert sentence["coq"], sentence["label"]
+        assert set(sentence["coq"]) <= names, sentence["label"]
+    for entry in index["open"]:
+        assert entry["why"]
+
+
+def test_a_false_sentence_names_its_counterexample(index: dict[str, list[dict[str, Any]]]) -> None:
+    refuting = {entry["name"] for entry in index["theorem"] if entry["status"] == "refutes"}
+    false = [sentence for sentence in index["sentence"] if sentence["status"] == "false"]
+    assert false
+    for sentence in false:
+        assert refuting & set(sentence["coq"]), sentence["label"]
+
+
+def test_the_readme_has_every_sentence_and_every_theorem(proofs: Path, index: dict[str, list[dict[str, Any]]]) -> None:
+    readme = (proofs / "README.md").read_text("utf-8")
+    files = {entry["name"]: entry["file"] for entry in index["theorem"]}
+    linked = dict(re.findall(r"\[`(\w+)`\]\(([\w/]+\.v)\)", readme))
+    assert linked == files
+    for sentence in index["sentence"]:
+        text = sentence["text"].replace("|", "&#124;")
+        assert f"| {sentence['label']} | {text} | {sentence['status']} |" in readme
+    for entry in index["open"]:
+        assert entry["text"].replace("|", "&#124;") in readme
+
+
+def test_a_missing_theorem_would_be_seen() -> None:
+    source = "(* Theorem hidden : x. *)\nTheorem shown : shown_statement.\nLemma helper : True.\n"
+    assert theorems(source) == {"shown": "shown_statement"}
