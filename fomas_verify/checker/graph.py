@@ -105,8 +105,8 @@ class Graph:
     def satisfies_assumption(self) -> bool:
         """Assumption 1: strongly connected and balanced.
 
-        On a balanced graph it is enough that agent 1 reaches all: no edge leads into the set B of those that reach it from
-        outside B, so by balance none leads out, and what agent 1 (in B) reaches is in B.
+        On a balanced graph it is enough that agent 1 reaches all: no edge leads from outside into the set B of those
+        that reach agent 1, so by balance none leads out, and all that agent 1, in B, reaches is in B.
         """
         agents = range(1, self.design.agents + 1)
         return all(self.heard(agent) == self.spoken(agent) for agent in agents) and self.reachable(1) == set(agents)

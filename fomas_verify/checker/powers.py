@@ -39,17 +39,7 @@ def power(base: Fraction, exponent: Fraction, bits: int) -> Enclosure:
 def gamma_one_plus(alpha: Fraction, bits: int) -> Enclosure:
     """Gamma(1 + alpha) for rational 0 < alpha < 1, to a relative width of about 2^-bits. Rigorous."""
     w = bits + _GUARD
-    p, q = alpha.numerator, alpha.denominator
-    t = w * 7 // 10 + 1
-    log_t = _log(Fraction(t), w)
-    ends = []
-    for up in (False, True):
-        factor = _exp(_div(log_t[up] * (p + q), q, up) - (t << w), w, up)
-        ends.append(factor * Fraction(_incomplete_series(p, q, t, w, up), 1 << w))
-    # With z = 1 + alpha <= 2 and s >= T >= 1, s^(z-1) <= s, so Gamma(z, T) <= int_T^oo s e^-s ds = (T + 1) e^-T;
-    # and e > 2^(36/25).
-    tail = Fraction(t + 1, 1 << (t * 36 // 25))
-    return outward(ends[0], ends[1] + tail, bits)
+    return outward(*_gamma_ends(alpha, w * 7 // 10 + 1, w), bits)
 
 
 def square_root(x: Enclosure, bits: int) -> Enclosure:
@@ -119,13 +109,25 @@ def _exp(x: int, w: int, up: bool) -> Fraction:
     return Fraction(total + 2 * term if up else total) * Fraction(2) ** (n - w)
 
 
+def _gamma_ends(alpha: Fraction, t: int, w: int) -> tuple[Fraction, Fraction]:
+    """Bounds of Gamma(z) = gamma(z, t) + Gamma(z, t), z = 1 + alpha, for an integer t >= 1."""
+    p, q = alpha.numerator, alpha.denominator
+    log_t = _log(Fraction(t), w)
+    ends = []
+    for up in (False, True):
+        factor = _exp(_div(log_t[up] * (p + q), q, up) - (t << w), w, up)
+        ends.append(factor * Fraction(_incomplete_series(p, q, t, w, up), 1 << w))
+    # As z <= 2 and s >= t >= 1: s^(z-1) <= s, so Gamma(z, t) <= int_t^oo s e^-s ds = (t + 1) e^-t; and e > 2^(36/25).
+    return ends[0], ends[1] + Fraction(t + 1, 1 << (t * 36 // 25))
+
+
 def _incomplete_series(p: int, q: int, t: int, w: int, up: bool) -> int:
     """A bound of sum_{k>=0} t^k / (z (z+1) ... (z+k)) for z = 1 + p/q."""
     below = p + q
     term = _div(q << w, below, up)
     total = 0
     # From a ratio t/(z+k) <= 1/2 of neighbours on, what follows a term is at most that term.
-    while below < 2 * t * q or term > total >> w:
+    while below < 2 * t * q or term > 1 + (total >> w):
         total += term
         below += q
         term = _div(term * t * q, below, up)

@@ -63,6 +63,8 @@ def _raise_or_none(loop: Loop, least: Interval, bits: int) -> str:
     bound = 1 / loop.degree_max
     if least.upper < bound:
         return raise_mu(loop, least.upper, below=bound)
+    if least.lower < bound:
+        return f"(14) needs mu >= {decimal(least, 30)}, at the very edge of (15)"
     alpha = log2(2 - loop.lambda2(bits) / loop.degree_max, bits)
     return (
         "no gamma and no h meets (14) and (15) together on this graph at this alpha: "

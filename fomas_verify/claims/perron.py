@@ -26,7 +26,7 @@ def decide(loop: Loop, *, proved: str, refuted: str) -> Decision:
         reason = "the graph has no agent from which every other is reached: 1 is a multiple eigenvalue of P at every mu"
         remedy = "add edges until one agent reaches every other"
     else:
-        relation = "=" if found.side is Side.BOUNDARY else ">"
+        relation = ">=" if found.side is Side.BOUNDARY else ">"
         reason = f"mu = {mu} {relation} mu* = {_mu_star(found)}: an eigenvalue of P has modulus {_modulus(found)}"
         remedy = lower_mu(loop, found.mu_star.lower, strict=True)
     return Decision(Verdict.REFUTED, found.witness, reason, refuted, remedy)

@@ -46,7 +46,7 @@ def remedy(loop: Loop) -> str:
     region = contraction_interval(loop, threshold)
     if region is None:
         return "no gamma and no h gives it on this graph at this alpha: no mu at all has sigma <= 2^alpha - 1"
-    low = loop.mu(128).upper < region.lower
+    low = loop.mu(128).mid < region.mid
     target = region.lower * (1 + NUDGE) if low else region.upper * (1 - NUDGE)
     if sigma_at(loop.laplacian, target, 128).upper >= threshold.lower:
         lower, upper = rounded_down(region.lower, DIGITS), rounded_up(region.upper, DIGITS)

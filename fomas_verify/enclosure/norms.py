@@ -81,7 +81,7 @@ def _magnitude(a: BallMatrix) -> int:
 def squared_image(a: BallMatrix, vector: Sequence[Fraction]) -> Interval:
     """The square of the norm of A v; rigorous."""
     image = a * arb_mat(len(vector), 1, [arb(to_fmpq(x)) for x in vector])
-    return to_interval(sum((image[i, 0] ** 2 for i in range(image.nrows())), arb(0)))
+    return to_interval(sum((image[i, 0] * image[i, 0] for i in range(image.nrows())), arb(0)))
 
 
 def approx_preimage_of_top(a: BallMatrix, laplacian: Matrix) -> list[Fraction]:

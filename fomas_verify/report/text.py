@@ -14,7 +14,7 @@ from fomas_verify.enclosure.roots import Root, root_of
 from fomas_verify.exact.rational import format_rational
 from fomas_verify.kernel.horizon import Horizon
 from fomas_verify.prover import Proof
-from fomas_verify.spectrum.stability import mu_star
+from fomas_verify.spectrum.stability import Side, stability
 
 WIDTH = 120
 DIGITS = 30
@@ -77,8 +77,10 @@ def _spectrum(proof: Proof) -> str:
         bounds += [f"Re z <= beta = {decimal(proof.values['beta'], 12)} (numerical range)"]
         bounds += [f"abs z <= sigma = {decimal(proof.values['sigma'], 12)}"]
     lines += [f"  each of these z: {'; '.join(bounds)}"]
-    star = mu_star(loop, bits)
-    lines += [f"  they lie in the open unit disc iff 0 < mu < mu* = {decimal(star, 20) if star else '0 (never)'}"]
+    found = stability(loop)
+    star = "0 (never)" if found.mu_star is None and found.side is Side.BOUNDARY else "(not enclosed)"
+    star = star if found.mu_star is None else decimal(found.mu_star, 20)
+    lines += [f"  they lie in the open unit disc iff 0 < mu < mu* = {star}"]
     return (
         "\n".join("\n".join(textwrap.wrap(x, WIDTH, initial_indent="  ", subsequent_indent="    ")) for x in lines)
         + "\n"

@@ -152,6 +152,15 @@ FURTHER: dict[str, Design] = {
     "h-large": gain("0.9", 5, PAPER_EDGES, "0.000001", "100000"),
     "h-small": gain("0.3", 5, PAPER_EDGES, "3", "0.0001"),
     "gamma-fraction": gain("7/9", 5, PAPER_EDGES, "1/7", "13/11"),
+    "alpha-tiny": at("0.00000001", 5, PAPER_EDGES, "1/4"),
+    "alpha-nearly-one": at("0.99999999", 5, PAPER_EDGES, "1/4"),
+    "mu-tiny": Design(F(9, 10), 5, PAPER_EDGES, mu=F(1, 10**40)),
+    "mu-huge": Design(F(9, 10), 5, PAPER_EDGES, mu=F(10**40)),
+    "h-beyond-floats": Design(F(9, 10), 5, PAPER_EDGES, gamma=F(13, 10**182), h=F(10**200)),
+    "directed-cycle-5-just-inside": Design(F(9, 10), 5, directed_cycle(5), mu=1 - F(1, 10**60)),
+    "directed-cycle-5-just-outside": Design(F(9, 10), 5, directed_cycle(5), mu=1 + F(1, 10**60)),
+    "c8-root-tie": at("1/2", 8, cycle(8), "1"),
+    "c5-golden-just-above": Design(F(9, 10), 5, cycle(5), mu=F(2, 5) + F(1, 10**60)),
     "paper-transposed": gain("9/10", 5, tuple((j, i, w) for i, j, w in PAPER_EDGES), "0.15", "0.85"),
 }
 NAMED = {**PUBLISHED, **TIES, **BROKEN, **FURTHER}

@@ -159,18 +159,18 @@ def sign_at(p: Sequence[Fraction], root: Root) -> int:
     Raises
     ------
     ArithmeticError
-        When 1000 digits do not separate a value that is not zero from zero.
+        When 3000 digits do not separate a value that is not zero from zero.
     """
     if has_common_root(p, root):
         return 0
-    for dps in (100, 300, 1000):
+    for dps in (100, 300, 1000, 3000):
         with mp.workdps(dps):
             theta = approx_root(root, dps)
             terms = [mp.mpf(c.numerator) / c.denominator * theta**k for k, c in enumerate(p)]
             value, size = mp.fsum(terms), mp.fsum(terms, absolute=True)
             if abs(value) > size * mp.mpf(10) ** (-dps // 2):
                 return int(mp.sign(value))
-    raise ArithmeticError("1000 digits did not decide a sign")
+    raise ArithmeticError("3000 digits did not decide a sign")
 
 
 def _interpolate(points: Sequence[Fraction], values: Sequence[Fraction]) -> Poly:

@@ -43,7 +43,7 @@ NUMBERS: dict[str, Any] = {
 
 def outward(x: Any, steps: int = 1) -> tuple[Fraction, Fraction]:
     """A rational interval around an mpf, about 10^-36 wide for each step."""
-    with mp.workdps(90):
+    with mp.workdps(DIGITS + 60 + int(mp.mag(abs(x) + 1))):
         below = int(mp.floor(x * mp.mpf(10) ** DIGITS))
     return Fraction(below - steps, 10**DIGITS), Fraction(below + 1 + steps, 10**DIGITS)
 
@@ -54,7 +54,7 @@ def enclosure(design: Design, key: str) -> tuple[Fraction, Fraction]:
         return degree_max(design), degree_max(design)
     if key == "mu" and design.mu is not None:
         return design.mu, design.mu
-    return outward(NUMBERS[key](design, 60))
+    return outward(NUMBERS[key](design, 60 + oracle.scale(design)))
 
 
 def _dyadic(x: Any, bits: int) -> Fraction:

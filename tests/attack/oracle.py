@@ -31,6 +31,8 @@ CLAIMS = (
     "control-bounded",
     "average-consensus",
 )
+# what exact signs and mpmath raise where their digits or iterations do not suffice
+UNDECIDED = (ArithmeticError, mp.NoConvergence, RuntimeError)
 ANY_GRAPH = ("graph-assumption", "gain-bound", "perron-eigenvalues")
 
 
@@ -103,13 +105,21 @@ def beta(design: Design, dps: int) -> Any:
         return 1 - mu(design, dps) * lambda2(design, dps)
 
 
-def settle(margin: Callable[[int], Any], exact: Callable[[], bool | None] | None = None) -> Answer:
-    """Sign of a margin: 60 digits, then the exact test if there is one, then up to 300 digits."""
+@lru_cache(maxsize=4096)
+def scale(design: Design) -> int:
+    """Decimal digits that P's size takes before the point: an absolute error needs that many more."""
+    with mp.workdps(30):
+        return max(0, ceil(mp.log10((1 + mu(design, 30)) * (1 + real(degree_max(design))))))
+
+
+def settle(design: Design, margin: Callable[[int], Any], exact: Callable[[], bool | None] | None = None) -> Answer:
+    """Sign of a margin: 60 digits after the point, then the exact test if there is one, then up to 300 digits."""
     value = None
-    for dps in DIGITS:
+    for digits in DIGITS:
+        dps = digits + scale(design)
         with mp.workdps(dps):
             value = margin(dps)
-            if abs(value) > mp.mpf(10) ** (-2 * dps // 3):
+            if abs(value) > mp.mpf(10) ** (-2 * digits // 3):
                 return Answer(bool(value > 0), value)
         if exact is not None and (truth := exact()) is not None:
             return Answer(truth, value)
@@ -126,7 +136,7 @@ def _gain_bound(design: Design) -> Answer:
         return Answer(True)
     if design.mu is not None:
         return Answer(design.mu * d < 1, real(1 - design.mu * d))
-    return settle(lambda dps: 1 - mu(design, dps) * real(d))
+    return settle(design, lambda dps: 1 - mu(design, dps) * real(d))
 
 
 def memory_slacks(design: Design, dps: int, samples: int) -> list[Any]:
@@ -150,23 +160,24 @@ def first_failure(design: Design) -> tuple[int | None, Answer]:
     """
     for k in (0, 1):
         exact = (lambda: ties.memory_at_0(design)) if k == 0 else None
-        answer = settle(lambda dps, k=k: memory_slacks(design, dps, k + 1)[k], exact)  # type: ignore[misc]
+        answer = settle(design, lambda dps, k=k: memory_slacks(design, dps, k + 1)[k], exact)  # type: ignore[misc]
         if answer.truth is None:
             return None, answer
         if not answer.truth:
             return k, answer
-    with mp.workdps(DIGITS[0]):
-        slacks = memory_slacks(design, DIGITS[0], 51)
+    digits = DIGITS[0] + scale(design)
+    with mp.workdps(digits):
+        slacks = memory_slacks(design, digits, 51)
         failing = [k for k, slack in enumerate(slacks) if k > 1 and slack < 0]
         if failing:
             return failing[0], Answer(False, slacks[failing[0]])
-        if not _tail_holds(design):
+        if not _tail_holds(design, digits):
             return None, Answer(None, min(slacks))
         return None, Answer(True, min(slacks[:2]))
 
 
-def _tail_holds(design: Design) -> bool:
-    alpha, size = real(design.alpha), abs(beta(design, DIGITS[0]))
+def _tail_holds(design: Design, digits: int) -> bool:
+    alpha, size = real(design.alpha), abs(beta(design, digits))
     last = max(52, ceil(2 / (1 - size)))
     if last > 10**6:
         return False
@@ -189,22 +200,23 @@ def spectral_margin(design: Design, dps: int) -> Any:
 def _perron(design: Design) -> Answer:
     if charpoly(laplacian(design))[1] == 0:
         return Answer(False, mp.mpf(0))
-    return settle(lambda dps: spectral_margin(design, dps), lambda: ties.unit_circle(design))
+    return settle(design, lambda dps: spectral_margin(design, dps), lambda: ties.unit_circle(design))
 
 
 def _contraction(design: Design) -> Answer:
     def margin(dps: int) -> Any:
         return beta(design, dps) - sigma(design, dps)
 
-    with mp.workdps(DIGITS[0]):
-        value = margin(DIGITS[0])
+    digits = DIGITS[0] + scale(design)
+    with mp.workdps(digits):
+        value = margin(digits)
         if value < -(mp.mpf(10) ** -40):
             return Answer(False, value)
-    return Answer(ties.contraction(design, mu(design, 80)), value)
+    return Answer(ties.contraction(design, mu(design, digits + 20)), value)
 
 
 def _repaired(design: Design) -> Answer:
-    return settle(lambda dps: threshold(design, dps) - sigma(design, dps), lambda: ties.repaired(design))
+    return settle(design, lambda dps: threshold(design, dps) - sigma(design, dps), lambda: ties.repaired(design))
 
 
 _DECIDE: dict[str, Callable[[Design], Answer]] = {
@@ -222,7 +234,10 @@ _DECIDE: dict[str, Callable[[Design], Answer]] = {
 @lru_cache(maxsize=8192)
 def decide(design: Design, claim: str) -> Answer:
     """Truth of a claim about a design; only for claims that apply to its graph."""
-    return _DECIDE[claim](design)
+    try:
+        return _DECIDE[claim](design)
+    except UNDECIDED:
+        return Answer(None)
 
 
 def verdict(design: Design, claim: str) -> str | None:

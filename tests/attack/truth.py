@@ -49,23 +49,23 @@ def both(*parts: Truth) -> Truth:
     return False if False in parts else None if None in parts else True
 
 
-def positive(margin: Callable[[int], Any], exact: Callable[[], Truth] | None = None) -> Truth:
+def positive(design: Design, margin: Callable[[int], Any], exact: Callable[[], Truth] | None = None) -> Truth:
     """Whether a real number is >= 0, given its value at any number of digits; ties by the exact test or not at all."""
-    return oracle.settle(margin, exact).truth
+    return oracle.settle(design, margin, exact).truth
 
 
 def mu_at_most(design: Design, t: Fraction) -> Truth:
     """mu <= t."""
     if design.mu is not None:
         return design.mu <= t
-    return positive(lambda dps: oracle.real(t) - oracle.mu(design, dps + 10))
+    return positive(design, lambda dps: oracle.real(t) - oracle.mu(design, dps + 10))
 
 
 def mu_at_least(design: Design, t: Fraction) -> Truth:
     """mu >= t."""
     if design.mu is not None:
         return design.mu >= t
-    return positive(lambda dps: oracle.mu(design, dps + 10) - oracle.real(t))
+    return positive(design, lambda dps: oracle.mu(design, dps + 10) - oracle.real(t))
 
 
 def _lambda2_at_most(design: Design, s: Fraction) -> bool:
@@ -107,7 +107,7 @@ def bound_holds(design: Design, key: str, bound: Fraction, upper: bool) -> Truth
     def margin(dps: int) -> Any:
         return sign * (oracle.real(bound) - numbers[key](design, dps + 10))
 
-    return positive(margin, lambda: _exact_bound(design, key, bound, upper))
+    return positive(design, margin, lambda: _exact_bound(design, key, bound, upper))
 
 
 def _value(design: Design, key: str, lower: Fraction, upper: Fraction) -> Truth:
@@ -154,7 +154,7 @@ def trace_exceeds(design: Design, t: Fraction, power: int) -> Truth:
                 p, base, left = (p * base if left & 1 else p), base * base, left >> 1
             return abs(mp.fsum(p[i, i] for i in range(len(rows)))) - len(rows)
 
-    return positive(margin)
+    return positive(design, margin)
 
 
 def _spectral(design: Design, claim: Claim) -> Truth:
@@ -196,12 +196,12 @@ def _stretch(design: Design, e: list[Fraction], factor: Callable[[Design, int], 
         at_least = None if root is None else _exact_bound(design, "beta", root, False)
         return None if at_least is None else not at_least
 
-    return positive(margin, exact)
+    return positive(design, margin, exact)
 
 
 def _by_polynomial(design: Design, t: Fraction, given: dict[str, Any]) -> Truth:
     """The witness by lambda2 as an algebraic number: `2 (L_s - theta) - t (L^T L - theta^2) >= 0` on 1perp."""
-    if count_roots(given["polynomial"], given["lower"], given["upper"]) != 1:
+    if given["polynomial"][-1] == 0 or count_roots(given["polynomial"], given["lower"], given["upper"]) != 1:
         return False
     root = Root(given["polynomial"], given["lower"], given["upper"])
     same = ties.is_lambda2(design, root)
@@ -284,7 +284,7 @@ def judge(data: bytes) -> Judgement:
         return Judgement("unknown", str(error))
     try:
         parts = _parts(document)
-    except (ArithmeticError, mp.NoConvergence) as error:
+    except oracle.UNDECIDED as error:
         return Judgement("unknown", str(error))
     for word, truth in (("false", False), ("unknown", None)):
         if names := [name for name, part in parts if part is truth]:

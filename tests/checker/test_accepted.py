@@ -6,10 +6,23 @@ from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
 
+import mpmath
 import pytest
 
 from fomas_verify.checker import check
-from tests.checker.builder import PAPER_EDGES, Json, checked, claim, lyapunov, outcome, paper
+from tests.checker.builder import (
+    PAPER_EDGES,
+    Json,
+    bounds,
+    certificate,
+    checked,
+    claim,
+    design,
+    lyapunov,
+    outcome,
+    paper,
+    path,
+)
 from tests.checker.cases import CASES
 
 
@@ -166,3 +179,33 @@ def test_without_h_where_mu_is_given_and_with_plain_x0() -> None:
     assert "h" not in document["design"]
     assert checked(document).design.x0 == ((1,), (Fraction(2, 3),), (-1,), (0,))
     assert outcome(document, "gain-bound") == ("accepted", "true")
+
+
+@pytest.mark.parametrize("gamma", ["1/5", "4/5"])
+def test_sigma_to_sixty_digits_at_an_irrational_mu(gamma: str) -> None:
+    """K2: sigma = abs(1 - 2 mu); the bounds are closer than mu's first enclosures are wide."""
+    with mpmath.workdps(120):
+        sigma = abs(1 - 2 * mpmath.mpf(gamma[0]) / 5 / mpmath.gamma(mpmath.mpf("1.9")))
+        lower, upper = bounds(sigma, 60)
+        assert refusals(certificate(design(path(2), 2, gamma=gamma, h="1"), sigma=(lower, upper))) == []
+        for ends in ((upper, "2"), ("0", lower)):
+            assert outcome(certificate(design(path(2), 2, gamma=gamma, h="1"), sigma=ends), "sigma")[0] == "refused"
+
+
+@pytest.mark.parametrize(("shift", "status"), [(1, "accepted"), (0, "refused"), (-1, "refused")])
+def test_a_vector_within_fifty_digits_of_the_tie(shift: int, status: str) -> None:
+    """On the paper's graph (lambda2 = 1), norm(P e) = beta norm(e) at mu = 2 (a - 1)/(b - 1).
+
+    a = e^T L e / norm(e)^2 and b = norm(L e)^2 / norm(e)^2; beyond that mu the norm is larger.
+    """
+    e = [-1, -3, -3, 1, 6]
+    image = [0, 0, 0, 0, 0]
+    for source, target, weight in PAPER_EDGES:
+        image[target - 1] += int(weight) * (e[target - 1] - e[source - 1])
+    norm = sum(x * x for x in e)
+    a, b = Fraction(sum(x * y for x, y in zip(e, image, strict=True)), norm), Fraction(sum(x * x for x in image), norm)
+    mu = 2 * (a - 1) / (b - 1) + Fraction(shift, 10**50)
+    document = certificate(
+        design(PAPER_EDGES, 5, mu=str(mu)), [claim("beta-contraction", "refuted", e=list(map(str, e)))]
+    )
+    assert outcome(document, "beta-contraction")[0] == status

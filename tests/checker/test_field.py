@@ -166,3 +166,20 @@ def test_elimination_over_the_field_of_a_cubic() -> None:
     assert root is not None
     rows = [[number(root, x + int(i == j), -int(i == j)) for j, x in enumerate(row)] for i, row in enumerate(matrix)]
     assert exact_sign(rows, number(root, 1), lambda entry: entry.sign()) == 1
+
+
+def test_a_root_at_the_excluded_end_is_no_root_of_the_field() -> None:
+    """x (x^2 - 2) on (0, 2]: x itself shares the root 0 with the polynomial, and is sqrt 2 > 0."""
+    root = isolate(rationals(0, -2, 0, 1), Fraction(0), Fraction(2))
+    assert root is not None
+    assert number(root, 0, 1).sign() == 1
+    assert number(root, -2, 0, 1).sign() == 0
+
+
+def test_a_root_at_the_included_end() -> None:
+    """(x - 2)(x - 3) on (1, 2] is 2."""
+    root = isolate(rationals(6, -5, 1), Fraction(1), Fraction(2))
+    assert root is not None
+    assert number(root, -3, 1).sign() == -1
+    assert number(root, -2, 1).sign() == 0
+    assert number(root, -2 - Fraction(1, 10**20), 1).sign() == -1

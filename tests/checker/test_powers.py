@@ -6,6 +6,7 @@ from fractions import Fraction
 import mpmath
 import pytest
 
+from fomas_verify.checker import powers
 from fomas_verify.checker.powers import Enclosure, gamma_one_plus, outward, point, power, quotient, square_root
 
 TINY = Fraction(1, 2**64 - 1)
@@ -97,3 +98,46 @@ def test_outward_widens_only() -> None:
         box = outward(x, x, 64)
         assert box.lower <= x <= box.upper
         assert (box.upper - box.lower) * 2**64 < x
+
+
+COARSE = range(6, 40)
+
+
+@pytest.mark.parametrize("w", COARSE)
+def test_each_series_at_few_bits(w: int) -> None:
+    """At 6 to 40 bits the terms left out and the roundings are as large as they ever get beside the result."""
+    choose = random.Random(w)
+    unit = mpmath.mpf(2) ** w
+    for _ in range(40):
+        z = Fraction(choose.randint(0, 1000), 3000)
+        exact = mpmath.atanh(real(z)) * unit
+        assert powers._atanh(z, w, False) <= exact <= powers._atanh(z, w, True)
+        x = Fraction(choose.randint(1, 10**6), choose.randint(1, 10**6))
+        lower, upper = powers._log(x, w)
+        assert lower <= mpmath.log(real(x)) * unit <= upper
+        y = choose.randint(-(20 << w), 20 << w)
+        assert real(powers._exp(y, w, False)) <= mpmath.exp(y / unit) <= real(powers._exp(y, w, True))
+        q = choose.randint(2, 50)
+        p = choose.randint(1, q - 1)
+        t = choose.randint(1, 12)
+        exponent = 1 + mpmath.mpf(p) / q
+        exact = mpmath.gammainc(exponent, 0, t) * mpmath.exp(t) / mpmath.mpf(t) ** exponent * unit
+        assert powers._incomplete_series(p, q, t, w, False) <= exact <= powers._incomplete_series(p, q, t, w, True)
+
+
+@pytest.mark.parametrize("bits", COARSE)
+def test_enclosures_without_guard_bits(bits: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(powers, "_GUARD", 0)
+    for a in exponents(bits, 60):
+        box = gamma_one_plus.__wrapped__(a, bits)
+        assert real(box.lower) <= mpmath.gamma(1 + real(a)) <= real(box.upper)
+        box = power.__wrapped__(Fraction(17, 3), a, bits)
+        assert real(box.lower) <= real(Fraction(17, 3)) ** real(a) <= real(box.upper)
+
+
+@pytest.mark.parametrize("t", range(1, 12))
+def test_gamma_cut_off_early(t: int) -> None:
+    """However early the integral is cut off, what is left of it is inside."""
+    for a in EDGE_EXPONENTS + exponents(t, 40):
+        lower, upper = powers._gamma_ends(a, t, 64)
+        assert real(lower) <= mpmath.gamma(1 + real(a)) <= real(upper)

@@ -1,8 +1,13 @@
 """What the checker cannot decide within its work is neither accepted nor refused; and it ends."""
 
+import json
+from fractions import Fraction
+
 import pytest
 
-from fomas_verify.checker import facts
+from fomas_verify.checker import check, facts
+from fomas_verify.checker.graph import Graph
+from fomas_verify.checker.powers import Enclosure
 from tests.checker.builder import (
     Json,
     certificate,
@@ -167,3 +172,19 @@ def test_many_agents_where_little_is_asked() -> None:
         degree_max=("1", "1"),
     )
     assert checked(document).exit_status == 0
+
+
+def test_digits_lost_at_first_are_not_taken_for_growth() -> None:
+    """The same chain at the power 2^30 + 1: Pc^n is near 2^186, its trace is -7, and at 128 bits nothing of it is left."""
+    document = certificate(
+        design([[i + 1, i, "1"] for i in range(1, 8)], 8, mu="2"),
+        [claim("perron-eigenvalues", "refuted", mu="2", power=2**30 + 1)],
+    )
+    assert outcome(document, "perron-eigenvalues")[0] == "refused"
+
+
+def test_a_threshold_of_unknown_sign_decides_nothing() -> None:
+    """sigma = 0.8 is not seen to be less than a number of [-3, 3]."""
+    found = check(json.dumps(certificate(design(path(2), 2, mu="1/10"))).encode()).design
+    wide = facts.Facts(found, Graph(found)).compare_sigma(lambda _: Enclosure(Fraction(-3), Fraction(3)))
+    assert wide is None

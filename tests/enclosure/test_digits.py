@@ -26,7 +26,9 @@ def read(text: str) -> tuple[Fraction, Fraction]:
 
 
 @given(positive, scales, st.integers(1, 60), st.integers(20, 220), st.booleans())
-def test_every_digit_of_an_enclosed_number_is_right(x: Fraction, scale: int, digits: int, bits: int, minus: bool) -> None:
+def test_every_digit_of_an_enclosed_number_is_right(
+    x: Fraction, scale: int, digits: int, bits: int, minus: bool
+) -> None:
     """The number lies between the printed digits and the next; so its first digits are these."""
     number = (-x if minus else x) * Fraction(10) ** scale
     radius = abs(number) / 2**bits

@@ -1,4 +1,4 @@
-"""Powers, roots, Gamma and logarithms: each enclosure holds the true value, by mpmath at far more digits and by MPFR."""
+"""Powers, roots, Gamma, logarithms: each enclosure holds the true value, by mpmath at far more digits and by MPFR."""
 
 import random
 from fractions import Fraction

@@ -5,13 +5,13 @@ from fractions import Fraction
 import pytest
 
 from fomas_verify.enclosure.interval import Interval
+from fomas_verify.enclosure.real import power
 from fomas_verify.enclosure.reference import (
     DisagreementError,
     approx_gain_and_threshold,
     approx_memory,
     must_agree,
 )
-from fomas_verify.enclosure.real import power
 
 THIRD = Interval(Fraction(1, 3) - Fraction(1, 10**60), Fraction(1, 3) + Fraction(1, 10**60))
 

@@ -72,7 +72,8 @@ def test_quotients(case: tuple, x: list[Fraction], y: list[Fraction]) -> None:
 @given(st.lists(small, min_size=18, max_size=18), st.booleans())
 def test_semidefinite_over_the_field(numbers: list[Fraction], square: bool) -> None:
     """A = a + sqrt 2 b, or its square, against the signs of the eigenvalues at 40 digits where these are not near 0."""
-    half = [sympy.Matrix(3, 3, [sympy.Rational(x.numerator, x.denominator) for x in numbers[i : i + 9]]) for i in (0, 9)]
+    parts = (numbers[:9], numbers[9:])
+    half = [sympy.Matrix(3, 3, [sympy.Rational(x.numerator, x.denominator) for x in part]) for part in parts]
     a, b = (m + m.T for m in half)
     if square:
         a, b = a * a + 2 * b * b, a * b + b * a

@@ -14,6 +14,9 @@ from fomas_verify.exact.matrix import matrix
 Z = sympy.Symbol("z")
 fractions = st.builds(Fraction, st.integers(-9, 9), st.integers(1, 5))
 polynomials = st.lists(st.integers(-9, 9), min_size=2, max_size=6).filter(lambda c: c[-1] != 0)
+squares = st.integers(1, 4).flatmap(
+    lambda n: st.lists(st.lists(fractions, min_size=n, max_size=n), min_size=n, max_size=n)
+)
 
 
 def to_sympy(p: fmpz_poly) -> sympy.Poly:
@@ -28,7 +31,7 @@ def rational(x: Fraction) -> sympy.Rational:
     return sympy.Rational(x.numerator, x.denominator)
 
 
-@given(st.integers(1, 4).flatmap(lambda n: st.lists(st.lists(fractions, min_size=n, max_size=n), min_size=n, max_size=n)))
+@given(squares)
 def test_characteristic_polynomials(rows: list[list[Fraction]]) -> None:
     expected = sympy.Matrix([[rational(x) for x in row] for row in rows]).charpoly(Z)
     got = to_sympy(exact.rational_characteristic_polynomial(matrix(rows)))

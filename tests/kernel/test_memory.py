@@ -1,6 +1,7 @@
 """c_n, f(j), the resolvent, mu and the threshold: identities they satisfy, and values by mpmath at far more digits."""
 
 from fractions import Fraction
+from itertools import pairwise
 from typing import Any
 
 import mpmath
@@ -92,8 +93,8 @@ def test_resolvent_against_its_recursion(alpha: Fraction) -> None:
 def test_resolvent_is_positive_nonincreasing_and_below_its_bound() -> None:
     """Theory, section 2: ``0 < r_n <= (n+1)^-alpha``, nonincreasing."""
     alpha, found = Fraction(3, 10), resolvent(Fraction(3, 10), 400, BITS)
-    for n, (former, r) in enumerate(zip(found[:-1], found[1:], strict=True), 1):
-        assert 0 < r.lower
+    for n, (former, r) in enumerate(pairwise(found), 1):
+        assert r.lower > 0
         assert r.upper <= former.upper
         with mp.workdps(60):
             assert r.lower <= value((mp.mpf(n) + 1) ** -order(alpha))

@@ -63,12 +63,13 @@ def assert_witness(found: Loop, witness: Any, mu: Fraction) -> None:
     assert p.count_roots(lower, upper) - (1 if p.eval(lower) == 0 else 0) == 1
     assert p.is_irreducible
     theta = eigenvalues[1]
-    assert mp.mpf(str(sympy.N(lower, 60))) - mp.mpf(10) ** -50 <= theta <= mp.mpf(str(sympy.N(upper, 60))) + mp.mpf(10) ** -50
+    slack = Fraction(1, 10**50)
+    assert root["lower"] - slack <= Fraction(mp.nstr(theta, 60)) <= root["upper"] + slack
     n = el.rows
     v = sympy.Matrix(n, n - 1, lambda i, j: 1 if i == j else -1 if i == n - 1 else 0)
     exact_theta = sympy.Float(mp.nstr(theta, 65), 65)
     form = v.T * (el + el.T - 2 * exact_theta * sympy.eye(n) - t * (el.T * el - exact_theta**2 * sympy.eye(n))) * v
-    assert min(mp.eigsy(mp.matrix(form.evalf(65).tolist()), eigvals_only=True)) > -mp.mpf(10) ** -45
+    assert min(mp.eigsy(mp.matrix(form.evalf(65).tolist()), eigvals_only=True)) > -(mp.mpf(10) ** -45)
 
 
 PROVED = [

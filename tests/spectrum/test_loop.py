@@ -63,7 +63,7 @@ def test_random_balanced_graphs_against_numpy(number: int) -> None:
 @pytest.mark.parametrize("bits", [128, 256, 1024])
 @pytest.mark.parametrize("n", [3, 4, 7, 10])
 def test_closed_forms(n: int, bits: int) -> None:
-    """Path: lambda2 = 2 - 2 cos(pi/n); directed cycle: 1 - cos(2 pi/n), sigma^2 = 1 - 2 mu (1 - mu) (1 - cos(2 pi/n))."""
+    """Path: lambda2 = 2 - 2 cos(pi/n). Directed cycle: 1 - cos(2 pi/n), sigma^2 = 1 - 2 mu (1 - mu) lambda2."""
     with mp.workdps(bits // 3):
         path, ring = 2 - 2 * mp.cos(mp.pi / n), 1 - mp.cos(2 * mp.pi / n)
         for found, true in [

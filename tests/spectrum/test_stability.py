@@ -99,7 +99,10 @@ def test_either_side_of_mu_star_and_on_it(graph: dict[str, object], star: str, o
     assert_witness(loop, found.side, found.witness, mu)
 
 
-@pytest.mark.parametrize("number", ["0.5857864376269049511983112757903019214303281246230519", "0.58578643762690495119832"])
+NEAR_MU_STAR = ["0.5857864376269049511983112757903019214303281246230519", "0.58578643762690495119832"]
+
+
+@pytest.mark.parametrize("number", NEAR_MU_STAR)
 def test_an_irrational_mu_star(number: str) -> None:
     """Path of 4: mu* = 2 / (2 + sqrt 2) = 2 - sqrt 2 = 0.58578643762690495119831127579030192143032812462305192683..."""
     loop = Loop(design_from_mapping({"name": "x", "alpha": "1/2", "mu": number, "graph": family("path", 4)}))
