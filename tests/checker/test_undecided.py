@@ -175,12 +175,22 @@ def test_many_agents_where_little_is_asked() -> None:
 
 
 def test_digits_lost_at_first_are_not_taken_for_growth() -> None:
-    """The same chain at the power 2^30 + 1: Pc^n is near 2^186, its trace is -7, and at 128 bits nothing of it is left."""
+    """The same chain at the power 2^30 + 1: Pc^n is near 2^186, its trace is -7, lost at 128 bits."""
     document = certificate(
         design([[i + 1, i, "1"] for i in range(1, 8)], 8, mu="2"),
         [claim("perron-eigenvalues", "refuted", mu="2", power=2**30 + 1)],
     )
     assert outcome(document, "perron-eigenvalues")[0] == "refused"
+
+
+def test_a_trace_that_is_rounded_past_its_bound_is_not_taken_for_growth() -> None:
+    """Pc = diag(1 - t w, 1 - t) with t = 4/(w + 1): the trace is -2 exactly, and rounded down it is below."""
+    w = 10**1300 + 2
+    mu = f"4/{w + 1}"
+    document = certificate(
+        design([[3, 1, str(w)], [3, 2, "1"]], 3, mu=mu), [claim("perron-eigenvalues", "refuted", mu=mu, power=1)]
+    )
+    assert outcome(document, "perron-eigenvalues") == ("undecided", LATE + "abs trace(Pc(witness.mu)^power) > N - 1")
 
 
 def test_a_threshold_of_unknown_sign_decides_nothing() -> None:
