@@ -24,7 +24,7 @@ from fomas_verify.spectrum.precision import PRECISIONS
 ID = "beta-contraction"
 STATEMENT = "norm of P e <= beta norm of e for every e that sums to 0 (step of the proof of Theorem 1)"
 SOURCE = "equ1u0"
-COQ = ""
+COQ = "sigma_ge_beta"
 MEANING = (
     "The paper's proof of Theorem 1 uses this step, so it does not cover this design; "
     "consensus and bounded control do not depend on it and are decided by their own claims."

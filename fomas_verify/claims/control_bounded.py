@@ -9,7 +9,7 @@ from fomas_verify.spectrum.loop import Loop
 ID = "control-bounded"
 STATEMENT = "for every x_0, norm u_k is bounded over k and u_k tends to 0"
 SOURCE = "Theorem 1"
-COQ = ""
+COQ = "claims_equivalent"
 
 
 def decide(loop: Loop) -> Decision:

@@ -23,7 +23,7 @@ from fomas_verify.spectrum.stability import Side, stability
 ID = "control-norm-bound"
 STATEMENT = "norm u_k <= norm u_0 for every k >= 0 and every x_0 (relation eqL3)"
 SOURCE = "eqL3"
-COQ = ""
+COQ = "peak_lemma"
 MEANING = (
     "The paper's relation eqL3 is false for this design: from some initial states a later control exceeds the first, "
     "so size the actuator for the peak, not for u_0."

@@ -22,7 +22,7 @@ from fomas_verify.spectrum.precision import PRECISIONS
 ID = "memory-inequality"
 STATEMENT = "beta^(k+1) + sum_{l=1}^{k+1} abs f(l) <= 1 for every k >= 0 (inequality (14) [eqT2])"
 SOURCE = "eqT2"
-COQ = ""
+COQ = "eqT2_closed_form"
 FIRST = "The paper's condition (14) fails, and with it relation eqL3: some initial state has norm u_1 > norm u_0."
 SECOND = "The paper's condition (14) fails, so its Theorem 1 says nothing about this design."
 

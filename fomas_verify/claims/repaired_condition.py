@@ -19,7 +19,7 @@ from fomas_verify.spectrum.precision import PRECISIONS
 ID = "repaired-condition"
 STATEMENT = "norm of P e <= (2^alpha - 1) norm of e for every e that sums to 0 (sigma <= 2^alpha - 1)"
 SOURCE = "theory, section 3"
-COQ = ""
+COQ = "theorem1_repaired"
 NUDGE = Fraction(1, 10**8)
 MEANING = (
     "The repaired Theorem 1 does not cover this design: "

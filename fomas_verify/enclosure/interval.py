@@ -117,3 +117,8 @@ def short_dyadic(lower: Fraction, upper: Fraction) -> Fraction:
     while (x := round_up(lower, shift)) > upper:
         shift += 1
     return x
+
+
+def is_dyadic(x: Fraction) -> bool:
+    """Whether the denominator is a power of two."""
+    return x.denominator & (x.denominator - 1) == 0

@@ -167,6 +167,14 @@ def _entry(x: Fraction) -> str:
 
 
 def _ending(proof: Proof) -> str:
+    rests = [f"{claim.ID} ({claim.COQ})" for claim in CLAIMS if claim.COQ and claim.ID in proof.decisions]
+    lines = textwrap.wrap(
+        f"Coq theorems behind them: {', '.join(rests)}", WIDTH, subsequent_indent="  ", break_on_hyphens=False
+    )
+    return "\n".join([*lines, "", _verdict(proof)])
+
+
+def _verdict(proof: Proof) -> str:
     required = {name: proof.decisions[name].verdict for name in proof.design.require}
     if all(verdict is Verdict.PROVED for verdict in required.values()):
         return f"All {len(required)} required claims are proved."

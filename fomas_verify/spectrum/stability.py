@@ -15,7 +15,7 @@ from fractions import Fraction
 from functools import cache
 from typing import Any
 
-from fomas_verify.enclosure.interval import Interval, short_dyadic
+from fomas_verify.enclosure.interval import Interval, is_dyadic, short_dyadic
 from fomas_verify.enclosure.linear import approx_lyapunov_sum, integer_lyapunov_form
 from fomas_verify.enclosure.roots import complex_roots, is_on_unit_circle, power_sum
 from fomas_verify.exact import matrix as exact
@@ -69,6 +69,10 @@ def stability(loop: Loop) -> Stability:
             power = large_trace_power(loop, t, bits)
             if power is not None:
                 return Stability(Side.OUTSIDE, {"mu": t, "power": power}, star)
+            if star.is_exact and is_dyadic(star.lower):
+                form = invariant_form(loop, star.lower, bits)
+                if form is not None:
+                    return Stability(Side.OUTSIDE, {"mu": star.lower, "Y": form}, star)
         elif mu.is_exact and (form := invariant_form(loop, mu.lower, bits)) is not None:
             return Stability(Side.BOUNDARY, {"mu": mu.lower, "Y": form}, star)
     return Stability(Side.UNKNOWN, {"bits": PRECISIONS[-1]}, star)
