@@ -13,6 +13,7 @@ From Fomas Require Import Results.Consensus.
 From Fomas Require Import Results.NormBound.
 From Fomas Require Import Results.Soundness.
 From Fomas Require Import Results.Equivalence.
+From Fomas Require Import Results.Regions.
 From Fomas Require Import Instances.Gamma19.
 From Fomas Require Import Instances.PaperExample.
 From Fomas Require Import Instances.PairGraph.
@@ -122,6 +123,16 @@ Goal True. idtac "==" "claims_equivalent". Abort.
 Print Assumptions claims_equivalent.
 Goal True. idtac "==" "eigenvalues_from_decay". Abort.
 Print Assumptions eigenvalues_from_decay.
+Goal True. idtac "==" "eigenvalue_bounds". Abort.
+Print Assumptions eigenvalue_bounds.
+Goal True. idtac "==" "outer_end". Abort.
+Print Assumptions outer_end.
+Goal True. idtac "==" "consensus_interval". Abort.
+Print Assumptions consensus_interval.
+Goal True. idtac "==" "lambda2_psd". Abort.
+Print Assumptions lambda2_psd.
+Goal True. idtac "==" "gamma_enclosure". Abort.
+Print Assumptions gamma_enclosure.
 Goal True. idtac "==" "gamma_19". Abort.
 Print Assumptions gamma_19.
 Goal True. idtac "==" "paper_hypotheses". Abort.

@@ -482,3 +482,49 @@ Definition eigenvalues_from_decay_statement : Prop := forall N A mu C rho a b x 
   (forall i, (i < N)%nat -> P x i = a * x i - b * y i) ->
   (forall i, (i < N)%nat -> P y i = b * x i + a * y i) ->
   ~ (a = 1 /\ b = 0) -> a ^ 2 + b ^ 2 <= rho ^ 2.
+
+(** * 9. Bounds of eigenvalues, and ends of regions *)
+
+(** For an eigenvalue lambda = a + b i of P other than 1, with nu = (1 - lambda)/mu:
+    |nu|^2 <= 2 D Re nu (Gershgorin: |lambda - (1 - mu D)| <= mu D), Re lambda <= beta, and
+    |lambda| <= s for every contraction factor s. *)
+Definition eigenvalue_bounds_statement : Prop := forall N A mu lambda2 s a b x y,
+  digraph N A -> balanced N A -> is_lambda2 N A lambda2 -> 0 < mu -> contracts N A mu s ->
+  let P := mv N (perron N A mu) in
+  0 < dot N x x + dot N y y ->
+  (forall i, (i < N)%nat -> P x i = a * x i - b * y i) ->
+  (forall i, (i < N)%nat -> P y i = b * x i + a * y i) ->
+  ~ (a = 1 /\ b = 0) ->
+  ((1 - a) / mu) ^ 2 + (b / mu) ^ 2 <= 2 * degree_max N A * ((1 - a) / mu) /\
+  (a - (1 - mu * degree_max N A)) ^ 2 + b ^ 2 <= (mu * degree_max N A) ^ 2 /\
+  a <= 1 - mu * lambda2 /\
+  a ^ 2 + b ^ 2 <= s ^ 2.
+
+(** Outer end of a region: sigma <= t at mu_in and not at mu_out excludes what lies beyond. *)
+Definition outer_end_statement : Prop := forall N A mu_in mu_out mu t,
+  contracts N A mu_in t -> ~ contracts N A mu_out t ->
+  (mu_in < mu_out <= mu \/ mu <= mu_out < mu_in) -> ~ contracts N A mu t.
+
+(** One Lyapunov matrix at mu_in certifies all of (0, mu_in]: at mu = 0 it is an equality. *)
+Definition consensus_interval_statement : Prop := forall N A Q rho2 mu_in mu,
+  balanced N A ->
+  (forall i j, (i < N)%nat -> (j < N)%nat -> Q i j = Q j i) ->
+  (forall x, zero_sum N x -> 0 <= form N Q x) -> 0 <= rho2 < 1 -> 0 < mu <= mu_in ->
+  (forall x, zero_sum N x -> form N Q (mv N (perron N A mu_in) x) <= rho2 * form N Q x) ->
+  exists rho, 0 <= rho < 1 /\
+  forall x, zero_sum N x -> form N Q (mv N (perron N A mu) x) <= rho ^ 2 * form N Q x.
+
+(** lambda2 >= s iff L_s - s (I - J) is positive semidefinite. *)
+Definition lambda2_psd_statement : Prop := forall N A lambda2 s,
+  (1 <= N)%nat -> balanced N A -> is_lambda2 N A lambda2 ->
+  (s <= lambda2 <->
+   forall x, 0 <= form N (fun i j => laplacian_sym N A i j - s * (id_mat i j - / INR N)) x).
+
+(** * 10. Enclosing Gamma *)
+
+(** For 0 < z <= 2 and T > 1, with n terms of the incomplete series:
+    T^z e^(-T) S_n <= Gamma z <= T^z (e^(-T) S_n + W_n) + (T + 1) e^(-T). *)
+Definition gamma_enclosure_statement : Prop := forall z T n, 0 < z <= 2 -> 1 < T ->
+  Rpower T z * exp (- T) * gamma_series n z T <= Gamma z
+  <= Rpower T z * (exp (- T) * gamma_series n z T + gamma_remainder n z T)
+     + (T + 1) * exp (- T).

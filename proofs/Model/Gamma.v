@@ -12,3 +12,10 @@ Definition Gamma (z : R) : R :=
     at b when b = t. *)
 Definition kernel_integral (alpha t a b : R) : R :=
   RInt_gen (fun tau => Rpower (t - tau) (alpha - 1)) (at_point a) (at_left b).
+
+(** The series of the incomplete Gamma function, n terms:
+    sum_{k<n} T^k / (z (z+1) ... (z+k)), and the bound of what it leaves out. *)
+Fixpoint gamma_series (n : nat) (z T : R) : R :=
+  match n with O => 0 | S m => (1 + T * gamma_series m (z + 1) T) / z end.
+Fixpoint gamma_remainder (n : nat) (z T : R) : R :=
+  match n with O => / z | S m => T * gamma_remainder m (z + 1) T / z end.

@@ -2,7 +2,7 @@
 From Coq Require Import Reals Arith Lia Lra.
 From Coquelicot Require Import Coquelicot.
 From Fomas Require Import Model.Vectors Model.Kernel Model.Gamma Model.Graph Model.Loop Statements.
-From Fomas Require Import Facts.Sums Facts.Vectors Facts.Kernel Facts.Resolvent Facts.Gamma.
+From Fomas Require Import Facts.Sums Facts.Vectors Facts.Kernel Facts.Resolvent Facts.Gamma Facts.GammaSeries.
 From Fomas Require Import Facts.Graph Facts.Loop.
 Open Scope R_scope.
 
@@ -28,4 +28,9 @@ Theorem between_samples : between_samples_statement.
 Proof.
   intros N alpha h x0 u x Ha Hh Hx k s i Hi Hs.
   apply (plant_between N alpha h x0 u x Ha Hh Hx k s i Hi Hs).
+Qed.
+
+Theorem gamma_enclosure : gamma_enclosure_statement.
+Proof.
+  intros z T n Hz HT. split; [apply Gamma_series_lower|apply Gamma_series_upper]; lra.
 Qed.
