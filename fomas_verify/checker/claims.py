@@ -16,12 +16,24 @@ from fomas_verify.checker.contraction import (
 )
 from fomas_verify.checker.document import Claim
 from fomas_verify.checker.facts import Facts
+from fomas_verify.checker.relation import (
+    require_agreement,
+    require_excess,
+    require_excess_at,
+    require_largest_bound,
+    require_lemma,
+    require_lemma_of,
+)
 from fomas_verify.checker.ruling import need, need_that
 from fomas_verify.checker.stability import require_decrease, require_persistence, trace_beyond
 from fomas_verify.checker.statements import ANY_GRAPH, STATEMENTS
 from fomas_verify.checker.thresholds import beta_below_first, beta_below_second, sigma_below_first
 from fomas_verify.checker.witness import (
+    Excess,
+    ExcessAt,
     GraphDefect,
+    LargestBound,
+    Lemma,
     Lyapunov,
     Nothing,
     Persistence,
@@ -44,6 +56,7 @@ def require_claim(facts: Facts, claim: Claim) -> str:
         If that was not decided within the work allowed.
     """
     need_that(claim.statement == STATEMENTS[claim.id], "the statement is the one of this claim, to the letter")
+    need_that(claim.id != "trajectory-norm-bound" or facts.design.x0 is not None, "the design has x0")
     applicable = claim.id in ANY_GRAPH or facts.graph.satisfies_assumption
     if claim.verdict == "inapplicable":
         need_that(not applicable, "Assumption 1 fails, and the claim presupposes it")
@@ -136,6 +149,12 @@ _TESTS: dict[tuple[str, str, type], Callable[[Facts, Any], None]] = {
     ("beta-contraction", "refuted", Vector): require_beyond_beta,
     ("repaired-condition", "proved", Nothing): _sigma_within,
     ("repaired-condition", "refuted", Vector): require_beyond_threshold,
+    ("control-norm-bound", "proved", Lemma): require_lemma,
+    ("control-norm-bound", "proved", LargestBound): require_largest_bound,
+    ("control-norm-bound", "refuted", Excess): require_excess,
+    ("trajectory-norm-bound", "proved", Nothing): require_agreement,
+    ("trajectory-norm-bound", "proved", Lemma): require_lemma_of,
+    ("trajectory-norm-bound", "refuted", ExcessAt): require_excess_at,
     **{(claim, "proved", Lyapunov): _decreases for claim in _CONSENSUS},
     **{(claim, "refuted", Persistence): _persists for claim in _CONSENSUS},
     **{(claim, "refuted", Power): _grows for claim in _CONSENSUS},

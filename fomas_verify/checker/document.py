@@ -27,6 +27,7 @@ class Design:
     edges : (from, to, weight), sorted; agent `to` hears agent `from`
     x0 : one row an agent, of the same length each (1 where the file has plain numbers), or None
     require : ids of the claims that the design must satisfy
+    plain_x0 : whether the file has x0 as plain numbers
     """
 
     alpha: Fraction
@@ -37,15 +38,44 @@ class Design:
     edges: tuple[Edge, ...]
     x0: State | None
     require: tuple[str, ...]
+    plain_x0: bool = False
 
 
 @dataclass(frozen=True)
-class Bounds:
-    """The certificate says: lower <= value <= upper."""
+class Value:
+    """What the certificate says of one value."""
 
     name: str
+
+
+@dataclass(frozen=True)
+class Bounds(Value):
+    """lower <= value <= upper."""
+
     lower: Fraction
     upper: Fraction
+
+
+@dataclass(frozen=True)
+class Peak(Bounds):
+    """lower <= norm Phi_at, and norm Phi_j <= upper for every j."""
+
+    at: int
+
+
+@dataclass(frozen=True)
+class Settling(Bounds):
+    """lower <= k, or k h, <= upper for the smallest k with norm P^k <= settle_to."""
+
+    settle_to: Fraction
+
+
+@dataclass(frozen=True)
+class Rate(Value):
+    """norm P^k <= kappa rho^k for every k >= 0."""
+
+    kappa: Fraction
+    rho: Fraction
 
 
 @dataclass(frozen=True)
@@ -63,7 +93,7 @@ class Document:
     """A certificate of which only the form has been checked."""
 
     design: Design
-    values: tuple[Bounds, ...]
+    values: tuple[Value, ...]
     claims: tuple[Claim, ...]
 
 
@@ -111,7 +141,8 @@ def _design(value: object, path: str) -> Design:
     agents = count(given["agents"], f"{path}.agents", 2)
     edges = _edges(given["edges"], f"{path}.edges", agents)
     x0 = _state(given["x0"], f"{path}.x0", agents) if "x0" in given else None
-    return Design(alpha, gamma, mu, h, agents, edges, x0, _require(given["require"], f"{path}.require"))
+    plain = "x0" in given and not isinstance(array(given["x0"], f"{path}.x0", "an array")[0], list)
+    return Design(alpha, gamma, mu, h, agents, edges, x0, _require(given["require"], f"{path}.require"), plain)
 
 
 def _edges(value: object, path: str, agents: int) -> tuple[Edge, ...]:
@@ -162,13 +193,23 @@ def _require(value: object, path: str) -> tuple[str, ...]:
     return tuple(ids)
 
 
-def _values(value: object, path: str) -> tuple[Bounds, ...]:
-    bounds = []
-    for name, entry in fields(value, path, (), VALUES).items():
-        ends = fields(entry, f"{path}.{name}", ("lower", "upper"))
-        lower, upper = (rational(ends[key], f"{path}.{name}.{key}") for key in ("lower", "upper"))
-        bounds.append(Bounds(name, lower, upper))
-    return tuple(bounds)
+def _values(value: object, path: str) -> tuple[Value, ...]:
+    entries = fields(value, path, (), VALUES)
+    return tuple(_value(name, entry, f"{path}.{name}") for name, entry in entries.items())
+
+
+def _value(name: str, entry: object, path: str) -> Value:
+    keys = ("kappa", "rho") if name == "rate" else ("lower", "upper")
+    more = {"peak_control": ("at",), "settling_samples": ("settle_to",), "settling_time": ("settle_to",)}
+    given = fields(entry, path, keys + more.get(name, ()))
+    first, second = (rational(given[key], f"{path}.{key}") for key in keys)
+    if name == "rate":
+        return Rate(name, first, second)
+    if "at" in given:
+        return Peak(name, first, second, count(given["at"], f"{path}.at", 0))
+    if "settle_to" in given:
+        return Settling(name, first, second, rational(given["settle_to"], f"{path}.settle_to"))
+    return Bounds(name, first, second)
 
 
 def _claims(value: object, path: str, agents: int) -> tuple[Claim, ...]:

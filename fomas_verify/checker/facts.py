@@ -2,7 +2,7 @@
 
 A sign is -1, 0, 1, or None where 4096 bits did not decide. s and u may be irrational: then they come as functions
 from a precision to an enclosure, with the exact comparison for where a tie is possible.
-Source: docs/certificate-format.md, section 5; docs/semantics.md, lemma.
+Source: docs/certificate-format.md, section 5; docs/theory.md, section 7.
 """
 
 from collections.abc import Callable, Sequence

@@ -2,7 +2,7 @@
 
 A fixed-point number is an integer n that stands for n / 2^w. Every series here has positive terms, so the whole error
 analysis is the direction of each division, and a bound of what comes after the last term.
-Source: theory, section "Findings"; gamma(z, T) = T^z e^-T sum_{k>=0} T^k / (z (z+1) ... (z+k)), DLMF 8.7.1.
+Source: gamma(z, T) = T^z e^-T sum_{k>=0} T^k / (z (z+1) ... (z+k)), DLMF 8.7.1.
 """
 
 from dataclasses import dataclass

@@ -8,16 +8,16 @@ from dataclasses import dataclass
 from typing import Literal, TypeVar
 
 from fomas_verify.checker.claims import require_claim
-from fomas_verify.checker.document import Bounds, Claim, Design, Document, read_document
+from fomas_verify.checker.document import Claim, Design, Document, Value, read_document
 from fomas_verify.checker.facts import Facts
 from fomas_verify.checker.graph import Graph
 from fomas_verify.checker.ruling import Refused, Undecided
-from fomas_verify.checker.values import require_bounds
+from fomas_verify.checker.values import require_value
 
 MAX_AGENTS = 2000
 
 Status = Literal["accepted", "refused", "undecided"]
-Said = TypeVar("Said", Bounds, Claim)
+Said = TypeVar("Said", Value, Claim)
 
 
 @dataclass(frozen=True)
@@ -123,9 +123,9 @@ def check(document_bytes: bytes) -> Report:
 
 
 def _outcomes(facts: Facts, document: Document) -> Iterable[Outcome]:
-    for bounds in document.values:
-        status, reason = _ruled(facts, require_bounds, bounds)
-        yield Outcome("value", bounds.name, None, status, reason)
+    for value in document.values:
+        status, reason = _ruled(facts, require_value, value)
+        yield Outcome("value", value.name, None, status, reason)
     for claim in document.claims:
         status, reason = _ruled(facts, require_claim, claim)
         yield Outcome("claim", claim.id, claim.verdict, status, reason)

@@ -10,6 +10,8 @@ STATEMENTS: dict[str, str] = {
     "perron-eigenvalues": "1 is a simple eigenvalue of P and every other eigenvalue of P lies in the open unit disc",
     "beta-contraction": "norm of P e <= beta norm of e for every e that sums to 0 (step of the proof of Theorem 1)",
     "repaired-condition": ("norm of P e <= (2^alpha - 1) norm of e for every e that sums to 0 (sigma <= 2^alpha - 1)"),
+    "control-norm-bound": "norm u_k <= norm u_0 for every k >= 0 and every x_0 (relation eqL3)",
+    "trajectory-norm-bound": "norm u_k <= norm u_0 for every k >= 0, for the x_0 of the design",
     "control-bounded": "for every x_0, norm u_k is bounded over k and u_k tends to 0",
     "average-consensus": "for every x_0 and every i, x_i(t) tends to the mean of x_0 as t tends to infinity",
 }
@@ -18,4 +20,17 @@ ANY_GRAPH = frozenset({"graph-assumption", "gain-bound", "perron-eigenvalues"})
 """The claims that are statements about every graph; the others presuppose Assumption 1."""
 
 VERDICTS = ("proved", "refuted", "undecided", "inapplicable")
-VALUES = ("mu", "threshold", "degree_max", "lambda2", "beta", "sigma")
+VALUES = (
+    "mu",
+    "threshold",
+    "degree_max",
+    "lambda2",
+    "beta",
+    "sigma",
+    "peak_control",
+    "settling_samples",
+    "settling_time",
+    "rate",
+    "actuator_reach",
+    "limit",
+)

@@ -1,7 +1,7 @@
 """Comparisons of beta and sigma with rationals and with the thresholds of the paper, ties included.
 
 Each function returns the sign of a threshold minus the value, or None where it was not decided.
-Source: theory, "(14) in closed form"; docs/semantics.md, lemma: a tie with 2^alpha is possible at alpha = 1/2 only,
+Source: theory, "(14) in closed form"; docs/theory.md, section 7: a tie with 2^alpha is possible at alpha = 1/2 only,
 with a rational mu, and is decided over Q(sqrt 2); a tie with -sqrt(3^alpha - 2^alpha) is not possible then.
 """
 

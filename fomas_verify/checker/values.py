@@ -5,17 +5,19 @@ Source: docs/certificate-format.md, section 3.
 
 from collections.abc import Callable
 from fractions import Fraction
+from typing import cast
 
-from fomas_verify.checker.document import Bounds
+from fomas_verify.checker.document import Bounds, Value
 from fomas_verify.checker.facts import Facts, compare
 from fomas_verify.checker.ruling import need, need_that
+from fomas_verify.checker.sizes import SIZES, require_size
 from fomas_verify.checker.thresholds import beta_below, sigma_below
 
 _UNDER_ASSUMPTION = frozenset({"lambda2", "beta", "sigma"})
 
 
-def require_bounds(facts: Facts, bounds: Bounds) -> str:
-    """Return the reason why a value's bounds are accepted.
+def require_value(facts: Facts, value: Value) -> str:
+    """Return the reason why what is said of a value is accepted.
 
     Raises
     ------
@@ -24,7 +26,10 @@ def require_bounds(facts: Facts, bounds: Bounds) -> str:
     Undecided
         If that was not decided within the work allowed.
     """
-    name = bounds.name
+    name = value.name
+    if name in SIZES:
+        return require_size(facts, value)
+    bounds = cast(Bounds, value)
     if name in _UNDER_ASSUMPTION:
         need_that(facts.graph.satisfies_assumption, f"{name} exists (Assumption 1 fails)")
     below = _SIGNS[name]

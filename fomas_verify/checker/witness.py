@@ -84,7 +84,52 @@ class SymmetricBounds:
     lambda_max_upper: Fraction
 
 
-Witness = Nothing | GraphDefect | Sample | Lyapunov | Power | Persistence | Vector | RootOf | SymmetricBounds
+@dataclass(frozen=True)
+class Excess:
+    """A state and a sample k >= 1 at which the control is larger than at first."""
+
+    x0: tuple[Fraction, ...]
+    k: int
+
+
+@dataclass(frozen=True)
+class ExcessAt:
+    """A sample k >= 1 at which the control is larger than at first, from the design's x0."""
+
+    k: int
+
+
+@dataclass(frozen=True)
+class Lemma:
+    """K samples to look at, and m powers of P after them, that carry a bound on to all samples."""
+
+    samples: int
+    powers: int
+
+
+@dataclass(frozen=True)
+class LargestBound:
+    """An upper bound of the largest eigenvalue, on a symmetric graph."""
+
+    mu: Fraction
+    lambda_max_upper: Fraction
+
+
+Witness = (
+    Nothing
+    | GraphDefect
+    | Sample
+    | Lyapunov
+    | Power
+    | Persistence
+    | Vector
+    | RootOf
+    | SymmetricBounds
+    | Excess
+    | ExcessAt
+    | Lemma
+    | LargestBound
+)
 _Reader = Callable[[object, str, int], Witness]
 
 
@@ -120,9 +165,39 @@ def _sample(value: object, path: str, _: int) -> Witness:
 
 
 def _vector(value: object, path: str, agents: int) -> Witness:
-    here = f"{path}.e"
-    entries = array(fields(value, path, ("e",))["e"], here, f"an array of {agents} rationals", agents)
-    return Vector(tuple(rational(entry, f"{here}[{i}]") for i, entry in enumerate(entries)))
+    return Vector(_rationals(fields(value, path, ("e",))["e"], f"{path}.e", agents))
+
+
+def _rationals(value: object, path: str, length: int) -> tuple[Fraction, ...]:
+    entries = array(value, path, f"an array of {length} rationals", length)
+    return tuple(rational(entry, f"{path}[{i}]") for i, entry in enumerate(entries))
+
+
+def _excess(value: object, path: str, agents: int) -> Witness:
+    given = fields(value, path, ("x0", "k"))
+    return Excess(_rationals(given["x0"], f"{path}.x0", agents), count(given["k"], f"{path}.k", 1))
+
+
+def _excess_at(value: object, path: str, _: int) -> Witness:
+    return ExcessAt(count(fields(value, path, ("k",))["k"], f"{path}.k", 1))
+
+
+def _lemma(value: object, path: str, _: int) -> Witness:
+    given = fields(value, path, ("samples", "powers"))
+    return Lemma(count(given["samples"], f"{path}.samples", 0), count(given["powers"], f"{path}.powers", 1))
+
+
+def _bounded(value: object, path: str, agents: int) -> Witness:
+    if not isinstance(value, dict) or "lambda_max_upper" not in value:
+        return _lemma(value, path, agents)
+    names = ("mu", "lambda_max_upper")
+    given = fields(value, path, names)
+    mu, lambda_max_upper = (rational(given[name], f"{path}.{name}") for name in names)
+    return LargestBound(mu, lambda_max_upper)
+
+
+def _bounded_from_x0(value: object, path: str, agents: int) -> Witness:
+    return Nothing() if value == {} else _lemma(value, path, agents)
 
 
 def _triangle(value: object, path: str, agents: int) -> Triangle:
@@ -181,6 +256,10 @@ _READERS: dict[tuple[str, str], _Reader] = {
     ("beta-contraction", "proved"): _contraction,
     ("beta-contraction", "refuted"): _vector,
     ("repaired-condition", "refuted"): _vector,
+    ("control-norm-bound", "proved"): _bounded,
+    ("control-norm-bound", "refuted"): _excess,
+    ("trajectory-norm-bound", "proved"): _bounded_from_x0,
+    ("trajectory-norm-bound", "refuted"): _excess_at,
 }
 
 

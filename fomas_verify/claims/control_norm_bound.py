@@ -33,7 +33,7 @@ MEANING = (
 def decide(loop: Loop) -> Decision:
     """Whether the peak of the control is its first value, as to the truth."""
     for bits in SAMPLE_PRECISIONS:
-        if (witness := _symmetric_witness(loop, bits)) is not None:
+        if (witness := symmetric_witness(loop, bits)) is not None:
             return Decision(Verdict.PROVED, witness, "symmetric graph, beta <= 2^alpha - 1 and mu lambda_N <= 2")
         found = examine(loop, bits)
         if found.above is not None and (x0 := state_above(loop, found.above, bits)) is not None:
@@ -55,7 +55,10 @@ def examine(loop: Loop, bits: int) -> Search:
     return Search(None, first_above(loop, bits))
 
 
-def _symmetric_witness(loop: Loop, bits: int) -> dict[str, Any] | None:
+def symmetric_witness(loop: Loop, bits: int) -> dict[str, Any] | None:
+    """What shows it on a symmetric graph at this precision: ``mu lambda_N <= 2`` in short numbers, and beta below
+    the threshold.
+    """
     if loop.laplacian != loop.laplacian.transpose() or loop.beta(bits).upper > loop.threshold(bits).lower:
         return None
     mu, largest = loop.mu(bits).upper, loop.lambda_max(bits).upper

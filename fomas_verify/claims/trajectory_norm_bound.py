@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from fomas_verify.claims.control_norm_bound import symmetric_witness
 from fomas_verify.claims.verdict import Decision, Verdict, undecided
 from fomas_verify.enclosure.digits import decimal
 from fomas_verify.exact.matrix import apply
 from fomas_verify.spectrum.control import follow
 from fomas_verify.spectrum.loop import Loop
 from fomas_verify.spectrum.precision import SAMPLE_PRECISIONS
+from fomas_verify.spectrum.samples import UNSTABLE_SAMPLES
+from fomas_verify.spectrum.stability import Side, stability
 
 ID = "trajectory-norm-bound"
 STATEMENT = "norm u_k <= norm u_0 for every k >= 0, for the x_0 of the design"
@@ -20,8 +23,11 @@ def decide(loop: Loop) -> Decision:
     x0 = list(loop.design.x0 or ())
     if not any(apply(loop.laplacian, x0)):
         return Decision(Verdict.PROVED, {}, "the agents agree already: u_k = 0 for every k")
+    limit = None if stability(loop).side is Side.INSIDE else UNSTABLE_SAMPLES
     for bits in SAMPLE_PRECISIONS:
-        found = follow(loop, x0, bits)
+        if (every := symmetric_witness(loop, bits)) is not None:
+            return Decision(Verdict.PROVED, every, "it holds for every x_0 (control-norm-bound)")
+        found = follow(loop, x0, bits, limit)
         if found.above is not None:
             reason = f"norm u_{found.above} / norm u_0 = {decimal(found.largest, 18)}"
             return Decision(

@@ -35,6 +35,7 @@ def command(certificate: Path, design: Path | None, require: str | None) -> int:
     Example:  verify-design check certificate.json --design examples/paper.toml --require design
     """
     names = _ids(require)
+    meant = None if design is None else _read_design(design)
     try:
         report = check(_read(certificate))
     except Malformed as error:
@@ -42,7 +43,7 @@ def command(certificate: Path, design: Path | None, require: str | None) -> int:
     for outcome in report.outcomes:
         verdict = f" {outcome.verdict}" if outcome.verdict else ""
         click.echo(f"{outcome.status:<10} {outcome.id}{verdict}: {outcome.reason}")
-    statuses = {report.exit_status, _compare(report, design), _require(report, names)}
+    statuses = {report.exit_status, _compare(report, meant), _require(report, names)}
     status = FALSE if FALSE in statuses else UNDECIDED if UNDECIDED in statuses else 0
     click.echo(ENDINGS[status])
     return status
@@ -64,17 +65,21 @@ def _ids(require: str | None) -> list[str]:
     return names
 
 
-def _compare(report: Report, path: Path | None) -> int:
-    """Whether the certificate is about the user's own design."""
-    if path is None:
-        return 0
+def _read_design(path: Path) -> Design:
     from fomas_verify.design import read_design
 
-    different = differences(report, read_design(path))
+    return read_design(path)
+
+
+def _compare(report: Report, design: Design | None) -> int:
+    """Whether the certificate is about the user's own design."""
+    if design is None:
+        return 0
+    different = differences(report, design)
     if different:
-        click.echo(f"refused    design: not the design of {path}: {', '.join(different)} differ")
+        click.echo(f"refused    design: not the design of {design.source}: {', '.join(different)} differ")
         return FALSE
-    click.echo(f"accepted   design: the design of {path}")
+    click.echo(f"accepted   design: the design of {design.source}")
     return 0
 
 

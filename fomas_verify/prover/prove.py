@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from importlib.metadata import version
 from typing import Any
 
 from fomas_verify.certificate import certificate_text
@@ -53,6 +52,8 @@ class Proof:
 
     def certificate(self) -> str:
         """The certificate's canonical text."""
+        from importlib.metadata import version
+
         return certificate_text(self.design, self.value_entries(), self.decisions, version("fomas_verify"))
 
     def value_entries(self) -> dict[str, dict[str, Any]]:

@@ -58,7 +58,7 @@ class Trajectory:
     examined: int
 
 
-def follow(loop: Loop, x0: list[Fraction], bits: int) -> Trajectory:
+def follow(loop: Loop, x0: list[Fraction], bits: int, limit: int | None = None) -> Trajectory:
     """Compare ``norm u_k`` with ``norm u_0`` along the trajectory from x_0, where ``L x_0 != 0``. Rigorous."""
     e0 = exact.apply(loop.laplacian, x0)
     size = exact.norm_squared(e0)
@@ -66,7 +66,7 @@ def follow(loop: Loop, x0: list[Fraction], bits: int) -> Trajectory:
         run = Samples(loop, bits)
         test, norms = TailTest(loop.design.alpha, bits), [Fraction(1)]
         largest, at = Interval.exactly(0), 0
-        for sample in run.all():
+        for sample in run.all(limit):
             k = sample.k
             ratio = square_root(squared_image(sample.phi, e0) / size, bits)
             if ratio.lower > largest.lower:
@@ -78,7 +78,7 @@ def follow(loop: Loop, x0: list[Fraction], bits: int) -> Trajectory:
             passed = test.add(shrunk if ratio.upper <= 1 else None, Fraction(1))
             if passed and (tail := test.tail(norms[test.streak])) is not None:
                 return Trajectory(None, tail, largest, at, k)
-    return Trajectory(None, None, largest, at, run.limit)
+    return Trajectory(None, None, largest, at, sample.k)
 
 
 def spectral_radius(loop: Loop, bits: int) -> Interval:

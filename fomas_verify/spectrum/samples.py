@@ -33,6 +33,9 @@ COARSE, ROUGH, MIDDLE, FINE = 4, 7, 14, 52
 SAMPLE_WORK, MOST_SAMPLES, FEWEST_SAMPLES = 500_000_000, 50_000, 200
 """Bounds on ``K N^3`` and on K, the last sample examined; K may always reach the third."""
 
+UNSTABLE_SAMPLES = 2_000
+"""Bound on K where P is not Schur on 1perp, so that no tail will end the search."""
+
 
 @dataclass(frozen=True)
 class Sample:
@@ -78,10 +81,10 @@ class Samples:
         """``Phi_k`` from ``Phi_{k-1}``."""
         return plus_multiple(self.perron * phi, self.resolvent(k), self.identity)
 
-    def all(self) -> Iterator[Sample]:
+    def all(self, limit: int | None = None) -> Iterator[Sample]:
         """The samples k = 1, 2, ... to the limit."""
         phi = power = self.identity
-        for k in range(1, self.limit + 1):
+        for k in range(1, min(self.limit, limit or self.limit) + 1):
             phi, power = self.after(k, phi), self.perron * power
             yield Sample(k, phi, power)
 
@@ -196,7 +199,7 @@ def first_above(loop: Loop, bits: int) -> int | None:
     """The first sample seen to have ``norm Phi_k > 1``, for a P that need not be Schur; None within the work bound."""
     with working_precision(bits):
         run = Samples(loop, bits)
-        return next((s.k for s in run.all() if run.norm(s.phi, MIDDLE).lower > 1), None)
+        return next((s.k for s in run.all(UNSTABLE_SAMPLES) if run.norm(s.phi, MIDDLE).lower > 1), None)
 
 
 def phi_at(loop: Loop, k: int, bits: int) -> BallMatrix:

@@ -1,0 +1,96 @@
+"""A real matrix known up to an error: integers times a power of two, and a bound of the Frobenius norm of what is off.
+
+`columns` holds one list a column. Under Assumption 1 the matrices here are polynomials in P, taken to be 0 on the
+vector 1: their norm on R^N is their norm on 1perp. P is there D = P - J, J = 1 1^T / N, and D^k = P^k - J.
+"""
+
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from math import ceil, isqrt
+from operator import mul
+
+from fomas_verify.checker.facts import Facts
+from fomas_verify.checker.graph import Rows
+
+
+@dataclass(frozen=True)
+class Ball:
+    """A real matrix M with Frobenius norm of (M / 2^exponent - columns) <= error."""
+
+    columns: Rows
+    exponent: int
+    error: int
+
+    @cached_property
+    def gram(self) -> Rows:
+        """The lower triangle of X^T X, X the integers."""
+        return [[sum(map(mul, left, right)) for right in self.columns[: i + 1]] for i, left in enumerate(self.columns)]
+
+    @cached_property
+    def square(self) -> int:
+        """The squared Frobenius norm of the integers."""
+        return sum(sum(map(mul, column, column)) for column in self.columns)
+
+    @property
+    def frobenius(self) -> int:
+        """An upper bound of the Frobenius norm of M / 2^exponent, so of its norm."""
+        return isqrt(self.square) + 1 + self.error
+
+
+def fitted(ball: Ball, bits: int) -> Ball:
+    """The same matrix, the largest integer (an entry or the error) of `bits` bits. Rigorous."""
+    shift = max(ball.error, *(max(abs(entry) for entry in column) for column in ball.columns)).bit_length() - bits
+    if shift <= 0:
+        columns = [[entry << -shift for entry in column] for column in ball.columns]
+        return Ball(columns, ball.exponent + shift, ball.error << -shift)
+    columns = [[entry >> shift for entry in column] for column in ball.columns]
+    return Ball(columns, ball.exponent + shift, -(-ball.error >> shift) + rounding(columns))
+
+
+def rounding(columns: Rows) -> int:
+    """A bound of the Frobenius norm of errors below one unit an entry."""
+    return isqrt(len(columns) * len(columns[0])) + 1
+
+
+def product(a: Ball, b: Ball, bits: int | None) -> Ball:
+    """a b, rounded to integers of `bits` bits where given: (A + E)(B + F) - A B = A F + E B + E F. Rigorous."""
+    rows = list(zip(*a.columns, strict=True))
+    columns = [[sum(map(mul, row, column)) for row in rows] for column in b.columns]
+    error = a.frobenius * b.error + a.error * b.frobenius
+    result = Ball(columns, a.exponent + b.exponent, error)
+    return result if bits is None else fitted(result, bits)
+
+
+def power(base: Ball, n: int, bits: int | None) -> Ball:
+    """base^n, n >= 1, by repeated squaring. Rigorous."""
+    result = base
+    for bit in bin(n)[3:]:
+        result = product(result, result, bits)
+        if bit == "1":
+            result = product(result, base, bits)
+    return result
+
+
+def exact_deviation(facts: Facts, mu: Fraction) -> tuple[Rows, int]:
+    """(columns X, q) with D = X / q, at a rational mu."""
+    d, n = facts.graph.denominator, facts.design.agents
+    one, many = mu.denominator * d, n * mu.numerator
+    columns = [[-many * entry - one for entry in column] for column in zip(*facts.graph.laplacian, strict=True)]
+    for i, column in enumerate(columns):
+        column[i] += n * one
+    return columns, n * one
+
+
+def deviation(facts: Facts, bits: int, scale: Fraction = Fraction(1)) -> Ball:
+    """`scale` > 0 times D, with integers of about `bits` bits. Rigorous."""
+    mu = facts.mu(bits + 16)
+    columns, q = exact_deviation(facts, mu.lower)
+    below = q * scale.denominator
+    width = bits + below.bit_length() - (scale.numerator * max(max(map(abs, c)) for c in columns) or 1).bit_length()
+    above = scale.numerator << max(width, 0)
+    below <<= max(-width, 0)
+    rounded = [[entry * above // below for entry in column] for column in columns]
+    # norm of L <= 2 D, and its Frobenius norm at most sqrt(N) times that.
+    missed = (mu.upper - mu.lower) * 2 * facts.graph.degree_max * facts.design.agents * scale * Fraction(2) ** width
+    return Ball(rounded, -width, rounding(rounded) + ceil(missed))

@@ -1,0 +1,78 @@
+"""The memory kernel in fixed point: c_n = (n+1)^alpha - n^alpha, abs f(n) = c_{n-1} - c_n, and the resolvent r_n.
+
+A number at scale w is a pair of integers (lower, upper) that stand for lower / 2^w and upper / 2^w.
+Source: theory, section 2: r_0 = 1, r_n = sum_{j=1}^n abs f(j) r_{n-j}, every term positive.
+"""
+
+from fractions import Fraction
+from functools import lru_cache
+from operator import mul
+
+from fomas_verify.checker.powers import power
+from fomas_verify.checker.ruling import Undecided
+
+MAX_SAMPLES = 2**15
+_GUARD = 32
+
+Pair = tuple[int, int]
+
+
+class Kernel:
+    """The numbers of the memory at one alpha and one scale; the lists grow as they are asked for."""
+
+    def __init__(self, alpha: Fraction, scale: int) -> None:
+        self.alpha = alpha
+        self.scale = scale
+        self._primes: list[int] = []
+        one = 1 << scale + _GUARD
+        self._powers: list[Pair] = [(0, 0), (one, one)]
+        self._resolvent = [1 << scale]
+        self._weights: list[int] = []
+        self._missed = 1
+
+    def step_response(self, n: int) -> Pair:
+        """c_n, n >= 0. Rigorous."""
+        (low, high), (next_low, next_high) = self._power(n), self._power(n + 1)
+        return next_low - high >> _GUARD, -(-(next_high - low) >> _GUARD)
+
+    def resolvent(self, n: int) -> Pair:
+        """r_n, n >= 0. Rigorous.
+
+        A sum with lower bounds of abs f, rounded down, is a lower bound. What it misses, sum df_j + 1 units at most at
+        each n, goes through the same recursion: r_n <= 1 of it for each sample before.
+        """
+        while len(self._resolvent) <= n:
+            lower, upper = self._weight(len(self._resolvent))
+            self._weights.append(lower)
+            self._missed += upper - lower
+            self._resolvent.append(sum(map(mul, self._weights, reversed(self._resolvent))) >> self.scale)
+        return self._resolvent[n], self._resolvent[n] + n * self._missed
+
+    def _weight(self, j: int) -> Pair:
+        """abs f(j) = 2 j^alpha - (j+1)^alpha - (j-1)^alpha, both ends >= 0."""
+        (a, a_up), (b, b_up), (c, c_up) = (self._power(i) for i in (j - 1, j, j + 1))
+        return max(2 * b - a_up - c_up >> _GUARD, 0), -(-(2 * b_up - a - c) >> _GUARD)
+
+    def _power(self, j: int) -> Pair:
+        """j^alpha, at the scale and 32 bits more: of a prime by its logarithm, of a product by its factors."""
+        if j > MAX_SAMPLES + 2:
+            raise Undecided(f"more than {MAX_SAMPLES} samples are beyond the work allowed")
+        width = self.scale + _GUARD
+        while len(self._powers) <= j:
+            n = len(self._powers)
+            factor = next((p for p in self._primes if n % p == 0), None)
+            if factor is None:
+                self._primes.append(n)
+                box = power(Fraction(n), self.alpha, width)
+                scaled = (box.lower * 2**width, box.upper * 2**width)
+                self._powers.append((int(scaled[0]), int(scaled[1]) + 1))
+            else:
+                (a, a_up), (b, b_up) = self._powers[factor], self._powers[n // factor]
+                self._powers.append((a * b >> width, -(-a_up * b_up >> width)))
+        return self._powers[j]
+
+
+@lru_cache(maxsize=16)
+def kernel(alpha: Fraction, scale: int) -> Kernel:
+    """The kernel at a scale, one for all who ask."""
+    return Kernel(alpha, scale)
