@@ -14,6 +14,7 @@ From Fomas Require Import Results.NormBound.
 From Fomas Require Import Results.Soundness.
 From Fomas Require Import Results.Equivalence.
 From Fomas Require Import Results.Regions.
+From Fomas Require Import Results.Step.
 From Fomas Require Import Instances.Gamma19.
 From Fomas Require Import Instances.PaperExample.
 From Fomas Require Import Instances.PairGraph.
@@ -131,6 +132,14 @@ Goal True. idtac "==" "consensus_interval". Abort.
 Print Assumptions consensus_interval.
 Goal True. idtac "==" "lambda2_psd". Abort.
 Print Assumptions lambda2_psd.
+Goal True. idtac "==" "step_decided". Abort.
+Print Assumptions step_decided.
+Goal True. idtac "==" "step_fails". Abort.
+Print Assumptions step_fails.
+Goal True. idtac "==" "region_as_stated". Abort.
+Print Assumptions region_as_stated.
+Goal True. idtac "==" "memoryless_law". Abort.
+Print Assumptions memoryless_law.
 Goal True. idtac "==" "gamma_enclosure". Abort.
 Print Assumptions gamma_enclosure.
 Goal True. idtac "==" "gamma_19". Abort.
@@ -139,6 +148,8 @@ Goal True. idtac "==" "paper_hypotheses". Abort.
 Print Assumptions paper_hypotheses.
 Goal True. idtac "==" "paper_step_false". Abort.
 Print Assumptions paper_step_false.
+Goal True. idtac "==" "paper_step_never". Abort.
+Print Assumptions paper_step_never.
 Goal True. idtac "==" "paper_eqL3_false". Abort.
 Print Assumptions paper_eqL3_false.
 Goal True. idtac "==" "eqT2_not_necessary". Abort.

@@ -528,3 +528,44 @@ Definition gamma_enclosure_statement : Prop := forall z T n, 0 < z <= 2 -> 1 < T
   Rpower T z * exp (- T) * gamma_series n z T <= Gamma z
   <= Rpower T z * (exp (- T) * gamma_series n z T + gamma_remainder n z T)
      + (T + 1) * exp (- T).
+
+(** * 11. The paper's step, and the paper's region *)
+
+(** beta^2 |e|^2 - |P e|^2 = mu [2 (e^T L_s e - lambda2 |e|^2) - mu (|L e|^2 - lambda2^2 |e|^2)];
+    the step ||P e|| <= beta ||e|| holds on 1perp iff beta >= 0 and the bracket is nonnegative
+    there. *)
+Definition step_bracket (N : nat) (A : mat) (mu lambda2 : R) (e : vec) : R :=
+  2 * (form N (laplacian_sym N A) e - lambda2 * dot N e e)
+  - mu * (dot N (mv N (laplacian N A) e) (mv N (laplacian N A) e) - lambda2 ^ 2 * dot N e e).
+Definition step_decided_statement : Prop := forall N A mu lambda2, (2 <= N)%nat -> 0 < mu ->
+  (forall e, (1 - mu * lambda2) ^ 2 * dot N e e
+             - dot N (mv N (perron N A mu) e) (mv N (perron N A mu) e)
+             = mu * step_bracket N A mu lambda2 e) /\
+  (bounded_on_1perp N (mv N (perron N A mu)) (1 - mu * lambda2) <->
+   0 <= 1 - mu * lambda2 /\ forall e, zero_sum N e -> 0 <= step_bracket N A mu lambda2 e).
+
+(** Where a Fiedler vector of L_s is no eigenvector of L, the step fails for every mu > 0:
+    no choice of gain and period repairs it on that graph. *)
+Definition step_fails_statement : Prop := forall N A mu lambda2 v,
+  is_lambda2 N A lambda2 -> 0 < mu -> zero_sum N v ->
+  form N (laplacian_sym N A) v = lambda2 * dot N v v ->
+  (exists i, (i < N)%nat /\ mv N (laplacian N A) v i <> lambda2 * v i) ->
+  ~ bounded_on_1perp N (mv N (perron N A mu)) (1 - mu * lambda2).
+
+(** The region of (14) in mu, and when it meets (15): iff lambda2 > D (2 - 2^alpha). *)
+Definition region_as_stated_statement : Prop := forall alpha lambda2 D,
+  0 < alpha < 1 -> 0 < lambda2 -> 0 < D ->
+  (forall mu, memory_inequality alpha (1 - mu * lambda2) <->
+     (2 - Rpower 2 alpha) / lambda2 <= mu
+     <= (1 + sqrt (Rpower 3 alpha - Rpower 2 alpha)) / lambda2) /\
+  ((exists mu, 0 < mu < 1 / D /\ memory_inequality alpha (1 - mu * lambda2)) <->
+   D * (2 - Rpower 2 alpha) < lambda2).
+
+(** The memory-free law u_k = -gamma L x_k on the same plant:
+    x_{k+1} = x_0 - mu sum_{j<=k} c_{k-j} L x_j. *)
+Definition memoryless_law_statement : Prop := forall N A alpha gamma h x0 x u,
+  design alpha gamma h -> plant N alpha h x0 u x ->
+  (forall k i, (i < N)%nat -> u k i = - gamma * error N A h x k i) ->
+  forall k i, (i < N)%nat ->
+  x (INR (S k) * h) i
+  = x0 i - mu_of alpha gamma h * \sum_(j < S k) (ck alpha (k - j) * error N A h x j i).

@@ -4,7 +4,7 @@ From Coquelicot Require Import Coquelicot.
 From Interval Require Import Tactic.
 From Fomas Require Import Model.Vectors Model.Kernel Model.Gamma Model.Graph Model.Loop Model.Examples Statements.
 From Fomas Require Import Facts.Sums Facts.Vectors Facts.Kernel Facts.Resolvent Facts.Graph Facts.Loop.
-From Fomas Require Import Results.EqT2 Results.BalancedGraph Instances.Gamma19.
+From Fomas Require Import Results.EqT2 Results.BalancedGraph Results.Step Instances.Gamma19.
 Open Scope R_scope.
 
 (** Case analysis on an index below 5. *)
@@ -194,6 +194,17 @@ Qed.
 
 Theorem paper_step_false : paper_step_false_statement.
 Proof. split; [exact step_false_on_trajectory|exact step_false_at_start]. Qed.
+
+(** No gain and no period make the paper's step true on the paper's graph. *)
+Theorem paper_step_never : forall mu, 0 < mu ->
+  ~ bounded_on_1perp 5 (mv 5 (perron 5 paper_graph mu)) (1 - mu * 1).
+Proof.
+  intros mu Hmu. apply (step_fails 5%nat paper_graph mu 1 fiedler paper_lambda2 Hmu).
+  - unfold zero_sum, fiedler, of_list. simpl. lra.
+  - rewrite paper_form. unfold dot, fiedler, of_list. simpl. lra.
+  - exists 0%nat. split; [lia|]. rewrite laplacian_entry by lia.
+    unfold paper_graph, fiedler. cbn. lra.
+Qed.
 
 Theorem paper_eqL3_false : paper_eqL3_false_statement.
 Proof.
