@@ -19,6 +19,7 @@ From Fomas Require Import Instances.Gamma19.
 From Fomas Require Import Instances.PaperExample.
 From Fomas Require Import Instances.PairGraph.
 From Fomas Require Import Instances.Examples.
+From Fomas Require Import Instances.MoreExamples.
 
 Goal True. idtac "==" "lemma2". Abort.
 Print Assumptions lemma2.
@@ -176,3 +177,11 @@ Goal True. idtac "==" "ldlt_inhabited". Abort.
 Print Assumptions ldlt_inhabited.
 Goal True. idtac "==" "hyperplane_inhabited". Abort.
 Print Assumptions hyperplane_inhabited.
+Goal True. idtac "==" "peak_inhabited". Abort.
+Print Assumptions peak_inhabited.
+Goal True. idtac "==" "peak_fails_without_decay". Abort.
+Print Assumptions peak_fails_without_decay.
+Goal True. idtac "==" "lyapunov_inhabited". Abort.
+Print Assumptions lyapunov_inhabited.
+Goal True. idtac "==" "residual_factor_inhabited". Abort.
+Print Assumptions residual_factor_inhabited.
