@@ -9,18 +9,23 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
+from fomas_verify.certificate.coq_chapter import Step
 from fomas_verify.certificate.coq_enclosures import Enclosures
-from fomas_verify.certificate.coq_steps import Step, steps
-from fomas_verify.claims.verdict import Decision
+from fomas_verify.certificate.coq_steps import steps
+from fomas_verify.claims.verdict import Decision, Verdict
 from fomas_verify.design.claim_ids import CLAIM_IDS
 from fomas_verify.exact.errors import FomasError
 from fomas_verify.spectrum.loop import Loop
 
 MOST_AGENTS = 12
-DIGITS = (20, 40, 80)
-"""Significant digits of mu, tried in this order; Coq encloses Gamma to 25 itself, and takes it as a hypothesis beyond."""
+PRECISIONS = ((20, 40), (20, 72), (40, 140), (80, 280))
+"""Significant digits of mu and bits of lambda2, tried in this order until every claim is restated; the first two need
+no hypothesis."""
+HYPOTHESIS = (
+    "the enclosure of Gamma(alpha + 1) is the only hypothesis: the margin is finer than Coq encloses Gamma here"
+)
 
 
 class CoqLimitError(FomasError):
@@ -29,12 +34,17 @@ class CoqLimitError(FomasError):
 
 @dataclass(frozen=True)
 class CoqFile:
-    """A Coq file: its module's name, its text, the claims it leaves out and whether Gamma's enclosure is a hypothesis."""
+    """A Coq file: its module's name and text, the claims it leaves out, and whether it assumes Gamma's enclosure."""
 
     module: str
     text: str
     omitted: tuple[str, ...]
     assumes_gamma: bool
+
+    def remarks(self) -> tuple[str, ...]:
+        """What its reader must know, a line each: claims left out, and a hypothesis."""
+        left_out = (f"not restated: {', '.join(self.omitted)}",) if self.omitted else ()
+        return left_out + ((HYPOTHESIS,) if self.assumes_gamma else ())
 
 
 def coq_file(loop: Loop, decisions: Mapping[str, Decision]) -> CoqFile:
@@ -63,8 +73,8 @@ def coq_file(loop: Loop, decisions: Mapping[str, Decision]) -> CoqFile:
             f"{design.source}: a Coq file is written for at most {MOST_AGENTS} agents, got {design.graph.agents}"
         )
     found: list[tuple[Enclosures, list[Step]]] = []
-    for digits in DIGITS:
-        enclosures = Enclosures.of(loop, digits)
+    for digits, bits in PRECISIONS:
+        enclosures = Enclosures.of(loop, digits, bits)
         found.append((enclosures, steps(loop, decisions, enclosures)))
         if not _omitted(decisions, found[-1][1]):
             break
@@ -72,9 +82,8 @@ def coq_file(loop: Loop, decisions: Mapping[str, Decision]) -> CoqFile:
     omitted = _omitted(decisions, chosen)
     if not any(step.claim for step in chosen):
         raise CoqLimitError(f"{design.source}: no verdict on this design can be restated for Coq")
-    module = module_name(design.name)
-    text = _text(module, loop, enclosures, chosen, omitted)
-    return CoqFile(module, text, omitted, enclosures.assumes_gamma)
+    file = CoqFile(module_name(design.name), "", omitted, enclosures.assumes_gamma)
+    return replace(file, text=_text(_header(file.module, file.remarks()), loop, enclosures, chosen))
 
 
 def module_name(name: str) -> str:
@@ -85,42 +94,37 @@ def module_name(name: str) -> str:
 
 def _omitted(decisions: Mapping[str, Decision], chosen: Sequence[Step]) -> tuple[str, ...]:
     restated = {step.claim for step in chosen}
-    return tuple(f"{name}: {decision.verdict.value}" for name, decision in decisions.items() if name not in restated)
+    return tuple(
+        f"{claim} ({decision.verdict.value})"
+        for claim, decision in decisions.items()
+        if claim not in restated and decision.verdict in (Verdict.PROVED, Verdict.REFUTED)
+    )
 
 
-def _text(module: str, loop: Loop, enclosures: Enclosures, chosen: Sequence[Step], omitted: Sequence[str]) -> str:
+def _text(header: str, loop: Loop, enclosures: Enclosures, chosen: Sequence[Step]) -> str:
     conclusions = sorted((step for step in chosen if step.claim), key=lambda step: CLAIM_IDS.index(step.claim))
-    parts = [_header(module, omitted, assumes_gamma=enclosures.assumes_gamma), enclosures.definitions(loop)]
-    parts += [step.lemma for step in chosen]
-    parts.append(_conclusion(conclusions))
-    names = " (conj ".join(step.name for step in conclusions[:-1])
-    proof = f"{names} {conclusions[-1].name}" + ")" * (len(conclusions) - 2) if names else conclusions[-1].name
-    proof = f"exact (conj {proof})" if names else f"exact {proof}"
-    parts.append(f"Theorem certified : conclusion.\nProof. {proof}. Qed.")
+    lines = [f"  (* {step.claim}: {step.verdict} *)\n  ({step.statement})" for step in conclusions]
+    parts = [header, enclosures.definitions(loop), *(step.lemma for step in chosen)]
+    parts.append("Definition conclusion : Prop :=\n" + " /\\\n".join(lines) + ".")
+    parts.append(
+        f"Theorem certified : conclusion.\nProof.\n  exact {_conjunction([s.name for s in conclusions])}.\nQed."
+    )
     if enclosures.assumes_gamma:
         parts.append("End Design.")
     return "\n\n".join(parts) + "\n"
 
 
-def _header(module: str, omitted: Sequence[str], *, assumes_gamma: bool) -> str:
-    left_out = f"\n    Not restated here: {'; '.join(omitted)}." if omitted else ""
-    hypothesis = (
-        "\n    The only hypothesis of the theorem is the enclosure of Gamma: the margin of a claim is below what the"
-        "\n    library encloses."
-        if assumes_gamma
-        else ""
-    )
+def _conjunction(names: Sequence[str]) -> str:
+    return names[0] if len(names) == 1 else f"(conj {names[0]} {_conjunction(names[1:])})"
+
+
+def _header(module: str, remarks: Sequence[str]) -> str:
+    lines = "".join(f"\n    {line[0].upper()}{line[1:]}." for line in remarks)
     return (
-        f"(** The certificate of one design. With PROOFS the compiled folder proofs/ of fomas_verify:\n"
-        f"    coqc -R PROOFS Fomas -w -ambiguous-paths {module}.v{left_out}{hypothesis} *)\n"
+        "(** The certificate of one design, decided by coqc; PROOFS is the compiled folder proofs/ of fomas_verify:\n"
+        f"    coqc -R PROOFS Fomas -w -ambiguous-paths {module}.v{lines} *)\n"
         "From Interval Require Import Tactic.\n"
-        "From Fomas Require Import Design.Claims Design.Gain.\n"
+        "From Fomas Require Import Design.Claims Design.Forms Design.Directions Design.Gain.\n"
         "Import ListNotations.\n"
         "Open Scope R_scope."
     )
-
-
-def _conclusion(conclusions: Sequence[Step]) -> str:
-    lines = [f"  (* {step.claim}: {step.verdict} *)\n  ({step.statement})" for step in conclusions]
-    return "Definition conclusion : Prop :=\n" + " /\\\n".join(lines) + "."
-

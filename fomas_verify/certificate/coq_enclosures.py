@@ -35,9 +35,9 @@ class Enclosures:
     assumes_gamma: bool
 
     @classmethod
-    def of(cls, loop: Loop, digits: int) -> Enclosures:
-        """To so many significant digits."""
-        design, bits = loop.design, 2 * digits
+    def of(cls, loop: Loop, digits: int, bits: int) -> Enclosures:
+        """mu to so many significant digits."""
+        design = loop.design
         if design.mu is not None:
             return cls(design.mu.numerator, design.mu.numerator, design.mu.denominator, bits, None, False)
         if design.gamma is None or design.h is None:
@@ -58,7 +58,7 @@ class Enclosures:
     @property
     def by_interval(self) -> str:
         """The tactic that proves an inequality between closed terms."""
-        return f"interval with (i_prec {4 * self.bits})"
+        return f"interval with (i_prec {100 + 2 * self.bits})"
 
     def definitions(self, loop: Loop) -> str:
         """The graph, the numbers of the design and the bounds of mu."""

@@ -73,7 +73,9 @@ def _cholesky(a: Table) -> Table | None:
             return None
         f[j][j] = pivot
         for i in range(j + 1, n):
-            f[i][j] = (2 * (a[i][j] - sum(x * y for x, y in zip(f[i][:j], f[j][:j], strict=True))) + pivot) // (2 * pivot)
+            f[i][j] = (2 * (a[i][j] - sum(x * y for x, y in zip(f[i][:j], f[j][:j], strict=True))) + pivot) // (
+                2 * pivot
+            )
     return f
 
 

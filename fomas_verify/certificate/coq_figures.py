@@ -69,7 +69,10 @@ class Figures:
         bits = self.enclosures.bits
         bound = round_down(self.loop.lambda2(2 * bits).lower, bits) - Fraction(1, 1 << bits)
         columns = list(zip(*self.laplacian, strict=True))
-        symmetric = [[x + y for x, y in zip(row, column, strict=True)] for row, column in zip(self.laplacian, columns, strict=True)]
+        symmetric = [
+            [x + y for x, y in zip(row, column, strict=True)]
+            for row, column in zip(self.laplacian, columns, strict=True)
+        ]
         one = identity(len(symmetric))
         found = factor(stein(symmetric, one, bound.denominator, 0, 2 * self.denominator * bound.numerator))
         return None if found is None or bound < 0 else (bound, found)

@@ -1,67 +1,35 @@
-"""The steps of a design's Coq file: for each verdict the statement, and the lemma of proofs/Design that shows it.
-
-A builder gives no step where these numbers do not show its claim; then the claim is left out. What is compared here
-only spares coqc a proof that would fail.
-"""
+"""The steps of a Coq file in order: for each verdict the statement, and the lemma of proofs/Design behind it."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from fractions import Fraction
+from math import lcm
 
+from fomas_verify.certificate.coq_chapter import (
+    BALANCED,
+    GRAPH,
+    Chapter,
+    Step,
+    about_loops,
+    ends,
+    factor_text,
+    mu_range,
+    vector,
+    with_lambda2,
+)
+from fomas_verify.certificate.coq_contraction import beta_contraction, repaired
 from fomas_verify.certificate.coq_enclosures import Enclosures, quotient, table
-from fomas_verify.certificate.coq_factor import Factor, Table, factor, identity, stein
-from fomas_verify.certificate.coq_figures import Direction, Figures
+from fomas_verify.certificate.coq_factor import Table, factor, identity, stein
+from fomas_verify.certificate.coq_figures import Figures
 from fomas_verify.claims.verdict import Decision, Verdict
-from fomas_verify.enclosure.interval import Interval, round_down, round_up, short_dyadic
+from fomas_verify.enclosure.interval import round_down
 from fomas_verify.exact.matrix import apply
 from fomas_verify.network import adjacency
-from fomas_verify.spectrum.loop import Loop, sigma_at
+from fomas_verify.spectrum.loop import Loop
 
-GRAPH = "agents weights denominator positive"
-BALANCED = "(proj2 (proj2 graph_assumption))"
 SHIFTS = (0, 8, 16, 32, 64)
 """Powers of two by which a Lyapunov matrix is scaled until it exceeds 1."""
-
-
-@dataclass(frozen=True)
-class Step:
-    """A lemma; where it is the conclusion on a claim, that claim."""
-
-    name: str
-    statement: str
-    proof: str
-    claim: str = ""
-    verdict: str = ""
-
-    @property
-    def lemma(self) -> str:
-        """Its text."""
-        return f"Lemma {self.name} : {self.statement}.\nProof.\n  {self.proof}\nQed."
-
-
-@dataclass(frozen=True)
-class Chapter:
-    """What a builder has to go by: the figures, the decisions, and the names of the lemmas already there."""
-
-    figures: Figures
-    decisions: Mapping[str, Decision]
-    known: frozenset[str] = frozenset()
-
-    @property
-    def loop(self) -> Loop:
-        """The closed loop."""
-        return self.figures.loop
-
-    @property
-    def numbers(self) -> Enclosures:
-        """mu as the file has it."""
-        return self.figures.enclosures
-
-    def decided(self, claim: str, verdict: Verdict) -> bool:
-        """Whether this is the verdict on the claim."""
-        return claim in self.decisions and self.decisions[claim].verdict is verdict
 
 
 def steps(loop: Loop, decisions: Mapping[str, Decision], enclosures: Enclosures) -> list[Step]:
@@ -129,8 +97,8 @@ def _lambda2(chapter: Chapter) -> list[Step]:
     if lower is None or upper is None:
         return []
     (low, shown), (high, e) = lower, upper
-    above = f"exact (lambda2_lower {GRAPH} {_ends(low)} {_factor(shown)} lambda2 ltac:(check) ltac:(check))."
-    below = f"exact (lambda2_upper {GRAPH} {_vector(e)} {_ends(high)} lambda2 ltac:(check))."
+    above = f"exact (lambda2_lower {GRAPH} {ends(low)} {factor_text(shown)} lambda2 ltac:(check) ltac:(check))."
+    below = f"exact (lambda2_upper {GRAPH} {vector(e)} {ends(high)} lambda2 ltac:(check))."
     given = "forall lambda2, is_lambda2 agents graph lambda2 ->"
     return [
         Step("lambda2_above", f"{given} {quotient(low)} <= lambda2", f"intros lambda2.\n  {above}"),
@@ -138,19 +106,8 @@ def _lambda2(chapter: Chapter) -> list[Step]:
     ]
 
 
-def _with_lambda2(chapter: Chapter) -> tuple[Interval, str] | None:
-    """The enclosure of mu lambda2, and the arguments that give it to a lemma."""
-    lower, upper = chapter.figures.lambda2_lower, chapter.figures.lambda2_upper
-    if "lambda2_above" not in chapter.known or lower is None or upper is None:
-        return None
-    mu = chapter.numbers
-    product = Interval(mu.mu.lower * lower[0], mu.mu.upper * upper[0])
-    numbers = f"({mu.low} / {mu.unit}) ({mu.high} / {mu.unit}) ({quotient(lower[0])}) ({quotient(upper[0])})"
-    return product, numbers
-
-
 def _memory(chapter: Chapter) -> list[Step]:
-    claim, found = "memory-inequality", _with_lambda2(chapter)
+    claim, found = "memory-inequality", with_lambda2(chapter)
     if found is None:
         return []
     (product, numbers), bits = found, chapter.numbers.bits
@@ -170,75 +127,6 @@ def _memory(chapter: Chapter) -> list[Step]:
     return [Step("memory", f"{conclusion} agents graph alpha mu", proof, claim, verdict)]
 
 
-def _beta_contraction(chapter: Chapter) -> list[Step]:
-    claim, found = "beta-contraction", _with_lambda2(chapter)
-    if found is None or not chapter.decided(claim, Verdict.REFUTED):
-        return []
-    product, numbers = found
-    direction = chapter.figures.direction(chapter.decisions[claim].witness["e"])
-    bound = max(Fraction(0), round_up(1 - product.lower, chapter.numbers.bits))
-    if not chapter.figures.stretched(direction, bound**2):
-        return []
-    proof = _stretch(chapter, direction, bound) + (
-        f"  refine (beta_refuted agents graph mu {numbers} mu_bounds _ _ lambda2_above lambda2_below\n"
-        f"    _ _ zero _ longer); lra."
-    )
-    return [Step("beta_step_false", "beta_contraction_refuted agents graph mu", proof, claim, "refuted")]
-
-
-def _stretch(chapter: Chapter, found: Direction, bound: Fraction) -> str:
-    return (
-        f"destruct (stretch_sound {GRAPH} {_vector(found.e)} {_range(chapter)} {_ends(bound)} mu\n"
-        "    ltac:(check) mu_bounds) as [zero longer].\n"
-    )
-
-
-def _repaired(chapter: Chapter) -> list[Step]:
-    claim, bits = "repaired-condition", chapter.numbers.bits
-    threshold = chapter.loop.threshold(2 * bits)
-    if chapter.decided(claim, Verdict.REFUTED):
-        direction = chapter.figures.direction(chapter.decisions[claim].witness["e"])
-        bound = round_up(threshold.upper, bits)
-        if not chapter.figures.stretched(direction, bound**2):
-            return []
-        proof = _stretch(chapter, direction, bound) + (
-            f"  refine (repaired_false _ _ _ _ _ _ zero _ longer). unfold alpha. {chapter.numbers.by_interval}."
-        )
-        return [Step("not_repaired", "repaired_refuted agents graph alpha mu", proof, claim, "refuted")]
-    if not chapter.decided(claim, Verdict.PROVED):
-        return []
-    mu = chapter.numbers.mu
-    ends = (mu.lower, mu.upper) if mu.is_exact else (round_down(mu.lower, bits), round_up(mu.upper, bits))
-    largest = max(sigma_at(chapter.loop.laplacian, t, 2 * bits).upper for t in ends)
-    if largest >= threshold.lower:
-        return []
-    room = threshold.lower - largest
-    s = short_dyadic(largest + room / 4, threshold.lower - room / 4)
-    shown = [_contraction(chapter, t, s) for t in ends]
-    if None in shown:
-        return []
-    proof = (
-        f"refine (repaired_sound _ _ _ _ _ _ ({quotient(s)}) _ contracts_low contracts_high _).\n"
-        f"  - assert (B := mu_bounds). lra.\n  - unfold alpha. {chapter.numbers.by_interval}."
-    )
-    names = ("contracts_low", "contracts_high")
-    helpers = [
-        Step(name, f"contracts agents graph ({quotient(t)}) ({quotient(s)})", text or "")
-        for name, t, text in zip(names, ends, shown, strict=True)
-    ]
-    return [*helpers, Step("repaired", "repaired_condition agents graph alpha mu", proof, claim, "proved")]
-
-
-def _contraction(chapter: Chapter, t: Fraction, s: Fraction) -> str | None:
-    figures = chapter.figures
-    one = identity(len(figures.laplacian))
-    unit = t.denominator * figures.denominator
-    form = stein(one, figures.perron(t), s.numerator**2 * unit**2, s.denominator**2, 0)
-    if (shown := factor(form)) is None:
-        return None
-    return f"exact (contracts_sound {GRAPH} {_ends(t)} {_ends(s)} {_factor(shown)} ltac:(check) ltac:(check))."
-
-
 def _decay(chapter: Chapter) -> list[Step]:
     if "graph_assumption" not in chapter.known or not chapter.loop.assumption1:
         return []
@@ -255,8 +143,9 @@ def _decay(chapter: Chapter) -> list[Step]:
         positive = factor(stein(q, identity(len(q)), 1, 0, 1))
         falling = factor(stein(q, chapter.figures.perron(t), unit, 1, 1))
         if positive is not None and falling is not None:
+            forms = f"1 {factor_text(positive)} 1 {factor_text(falling)}"
             proof = (
-                f"refine (lyapunov_sound {GRAPH} {table(q)} {_ends(t)} 1 {_factor(positive)} 1 {_factor(falling)} mu\n"
+                f"refine (lyapunov_sound {GRAPH} {table(q)} {ends(t)} {forms} mu\n"
                 f"    {BALANCED} ltac:(check) ltac:(check) ltac:(check) ltac:(check) _).\n"
                 "  assert (B := mu_bounds). lra."
             )
@@ -292,17 +181,10 @@ def _from_decay(chapter: Chapter) -> list[Step]:
     ):
         if chapter.decided(claim, Verdict.PROVED):
             use = f"refine ({lemma} agents graph alpha gamma h {one} {BALANCED} range _)."
-            found.append(_about_loops(chapter, f"{lemma}_holds", f"{predicate} agents graph alpha gamma h", use, "decay", claim))
+            found.append(
+                about_loops(chapter, f"{lemma}_holds", f"{predicate} agents graph alpha gamma h", use, "decay", claim)
+            )
     return found
-
-
-def _about_loops(chapter: Chapter, name: str, statement: str, use: str, exact: str, claim: str, verdict: str = "proved") -> Step:
-    """A step about gamma and h; where the design gives mu alone, about every gamma and h that give it."""
-    if chapter.numbers.gamma is not None:
-        return Step(name, statement, f"{use}\n  exact {exact}.", claim, verdict)
-    given = "forall gamma h, design alpha gamma h -> mu_of alpha gamma h = mu ->\n    "
-    proof = f"intros gamma h range given. {use}\n  rewrite given. exact {exact}."
-    return Step(name, given + statement, proof, claim, verdict)
 
 
 def _control_norm(chapter: Chapter) -> list[Step]:
@@ -310,7 +192,7 @@ def _control_norm(chapter: Chapter) -> list[Step]:
     statement = "control_norm_bound agents graph alpha gamma h"
     if chapter.decided(claim, Verdict.PROVED) and "repaired" in chapter.known:
         use = f"refine (repaired_norm_bound agents graph alpha gamma h {BALANCED} range _)."
-        return [_about_loops(chapter, "norm_bound", statement, use, "repaired", claim)]
+        return [about_loops(chapter, "norm_bound", statement, use, "repaired", claim)]
     if not chapter.decided(claim, Verdict.REFUTED) or "graph_assumption" not in chapter.known:
         return []
     moved = apply(chapter.loop.laplacian, chapter.decisions[claim].witness["x0"])
@@ -319,32 +201,26 @@ def _control_norm(chapter: Chapter) -> list[Step]:
     if not chapter.figures.grown(direction, r):
         return []
     proof = (
-        f"refine (growth_sound {GRAPH} {_vector(direction.e)} {_range(chapter)} {_ends(r)} alpha mu\n"
+        f"refine (growth_sound {GRAPH} {vector(direction.e)} {mu_range(chapter)} {ends(r)} alpha mu\n"
         f"    ltac:(check) _ mu_bounds _); unfold alpha; first [lra | {chapter.numbers.by_interval}]."
     )
     growth = Step("growth", "~ bounded_on_1perp agents (Phi alpha agents (perron agents graph mu) 1) 1", proof)
     use = "refine (norm_bound_false agents graph alpha gamma h ltac:(unfold agents; lia) graph_assumption range _)."
-    return [growth, _about_loops(chapter, "no_norm_bound", f"~ {statement}", use, "growth", claim, "refuted")]
+    return [growth, about_loops(chapter, "no_norm_bound", f"~ {statement}", use, "growth", claim, "refuted")]
 
 
-def _ends(x: Fraction) -> str:
-    return f"{_integer(x.numerator)} {x.denominator}"
-
-
-def _integer(n: int) -> str:
-    return str(n) if n >= 0 else f"({n})"
-
-
-def _range(chapter: Chapter) -> str:
-    return f"{chapter.numbers.low} {chapter.numbers.high} {chapter.numbers.unit}"
-
-
-def _vector(e: list[int]) -> str:
-    return f"[{'; '.join(map(str, e))}]%Z"
-
-
-def _factor(shown: Factor) -> str:
-    return f"{shown.weight}\n    {table(shown.rows)}\n    {shown.scale} {shown.eps}"
+def _trajectory_norm(chapter: Chapter) -> list[Step]:
+    claim, x0 = "trajectory-norm-bound", chapter.loop.design.x0
+    if x0 is None or "norm_bound" not in chapter.known or not chapter.decided(claim, Verdict.PROVED):
+        return []
+    unit = lcm(*(x.denominator for x in x0))
+    statement = f"trajectory_norm_bound agents graph alpha gamma h {vector([int(x * unit) for x in x0])} {unit}"
+    given, bound = "", "norm_bound"
+    if chapter.numbers.gamma is None:
+        given, bound = "intros gamma h range given. ", "(norm_bound gamma h range given)"
+        statement = f"forall gamma h, design alpha gamma h -> mu_of alpha gamma h = mu ->\n    {statement}"
+    proof = f"{given}exact (norm_bound_trajectory _ _ _ _ _ _ _ {bound})."
+    return [Step("trajectory", statement, proof, claim, "proved")]
 
 
 BUILDERS: tuple[Callable[[Chapter], list[Step]], ...] = (
@@ -352,9 +228,10 @@ BUILDERS: tuple[Callable[[Chapter], list[Step]], ...] = (
     _gain_bound,
     _lambda2,
     _memory,
-    _beta_contraction,
-    _repaired,
+    beta_contraction,
+    repaired,
     _decay,
     _from_decay,
     _control_norm,
+    _trajectory_norm,
 )

@@ -8,22 +8,27 @@ import click
 
 from fomas_verify.cli.options import design_argument, digits_option
 from fomas_verify.design import read_design
-from fomas_verify.prover import prove
+from fomas_verify.prover import Proof, prove
 
 
 @click.command("prove")
 @design_argument
 @click.option("-o", "--output", type=click.Path(path_type=Path), metavar="CERT.json", help="write the certificate")
 @click.option("--horizon", type=click.IntRange(0, 10**9), metavar="K", help="also check (14) term by term, k = 0..K")
+@click.option("--coq", type=click.Path(path_type=Path), metavar="DIR", help="write the proof as a Coq file into DIR")
 @digits_option
 @click.option("--json", "as_json", is_flag=True, help="print the certificate in place of the table")
-def command(design: Path, output: Path | None, horizon: int | None, digits: int, *, as_json: bool) -> int:
+def command(
+    design: Path, output: Path | None, horizon: int | None, coq: Path | None, digits: int, *, as_json: bool
+) -> int:
     """Decide every claim about DESIGN, print the verdicts and write the certificate.
 
     \b
     Example:  verify-design prove examples/paper.toml -o certificate.json --horizon 1000
     """
     proof = prove(read_design(design), horizon=horizon, digits=digits)
+    if coq is not None:
+        _write_coq(proof, coq)
     if output is not None:
         from fomas_verify.report.files import write_whole
 
@@ -35,3 +40,14 @@ def command(design: Path, output: Path | None, horizon: int | None, digits: int,
 
         click.echo(proof_text(proof))
     return proof.exit_status
+
+
+def _write_coq(proof: Proof, folder: Path) -> None:
+    from fomas_verify.certificate.coq import coq_file
+    from fomas_verify.report.files import make_folder, write_whole
+
+    file = coq_file(proof.loop, proof.decisions)
+    make_folder(folder)
+    write_whole(folder / f"{file.module}.v", file.text.encode())
+    for line in file.remarks():
+        click.echo(f"{file.module}.v: {line}", err=True)
