@@ -13,14 +13,21 @@ from operator import mul
 from fomas_verify.checker.facts import Facts
 from fomas_verify.checker.graph import Rows
 
+_ITERATIONS = 30
+_GUESS_BITS = 56
+
 
 @dataclass(frozen=True)
 class Ball:
-    """A real matrix M with Frobenius norm of (M / 2^exponent - columns) <= error."""
+    """A real matrix M with Frobenius norm of (M / 2^exponent - columns) <= error.
+
+    `known`, where given, is an upper bound of norm M / 2^exponent.
+    """
 
     columns: Rows
     exponent: int
     error: int
+    known: int | None = None
 
     @cached_property
     def gram(self) -> Rows:
@@ -32,10 +39,34 @@ class Ball:
         """The squared Frobenius norm of the integers."""
         return sum(sum(map(mul, column, column)) for column in self.columns)
 
+    @cached_property
+    def stretch(self) -> int:
+        """norm(X v)^2 / norm(v)^2, rounded down, for a v that power iteration leads to: a lower bound of norm(X)^2."""
+        shift = max(max(row[-1] for row in self.gram).bit_length() - _GUESS_BITS, 0)
+        full = _whole([[entry >> shift for entry in row] for row in self.gram])
+        vector = [(37 * i + 11) % 101 - 50 for i in range(len(full))]
+        for _ in range(_ITERATIONS):
+            image = [sum(map(mul, row, vector)) for row in full]
+            size = max(abs(entry) for entry in image).bit_length()
+            vector = [entry << _GUESS_BITS >> size for entry in image] if size else vector
+        image = [sum(map(mul, row, vector)) for row in _whole(self.gram)]
+        size = sum(map(mul, vector, vector))
+        return int(sum(map(mul, vector, image)) // size)
+
     @property
     def frobenius(self) -> int:
         """An upper bound of the Frobenius norm of M / 2^exponent, so of its norm."""
         return isqrt(self.square) + 1 + self.error
+
+    @property
+    def size(self) -> int:
+        """An upper bound of norm M / 2^exponent: the one that is known, else that of Frobenius."""
+        return self.frobenius if self.known is None else self.known
+
+
+def _whole(lower: Rows) -> Rows:
+    """A symmetric matrix from its lower triangle."""
+    return [row + [below[i] for below in lower[i + 1 :]] for i, row in enumerate(lower)]
 
 
 def fitted(ball: Ball, bits: int) -> Ball:
@@ -57,7 +88,7 @@ def product(a: Ball, b: Ball, bits: int | None) -> Ball:
     """a b, rounded to integers of `bits` bits where given: (A + E)(B + F) - A B = A F + E B + E F. Rigorous."""
     rows = list(zip(*a.columns, strict=True))
     columns = [[sum(map(mul, row, column)) for row in rows] for column in b.columns]
-    error = a.frobenius * b.error + a.error * b.frobenius
+    error = a.size * b.error + a.error * b.size
     result = Ball(columns, a.exponent + b.exponent, error)
     return result if bits is None else fitted(result, bits)
 

@@ -154,6 +154,7 @@ _TESTS: dict[tuple[str, str, type], Callable[[Facts, Any], None]] = {
     ("control-norm-bound", "refuted", Excess): require_excess,
     ("trajectory-norm-bound", "proved", Nothing): require_agreement,
     ("trajectory-norm-bound", "proved", Lemma): require_lemma_of,
+    ("trajectory-norm-bound", "proved", LargestBound): require_largest_bound,
     ("trajectory-norm-bound", "refuted", ExcessAt): require_excess_at,
     **{(claim, "proved", Lyapunov): _decreases for claim in _CONSENSUS},
     **{(claim, "refuted", Persistence): _persists for claim in _CONSENSUS},

@@ -5,14 +5,13 @@ D = P - J. Source: docs/certificate-format.md, section 3; theory, section 7 (rat
 
 from fractions import Fraction
 from functools import lru_cache
-from itertools import count
-from math import ceil
+from math import ceil, isqrt
 
 from fomas_verify.checker.ball import Ball, deviation, exact_deviation, power, product
 from fomas_verify.checker.definite import least_sign
 from fomas_verify.checker.facts import BITS, Facts, settle
 from fomas_verify.checker.graph import limit_size
-from fomas_verify.checker.norms import compare_norm_with, norm_upper
+from fomas_verify.checker.norms import compare_norm_with, measured, norm_upper
 from fomas_verify.checker.powers import point
 from fomas_verify.checker.ruling import Undecided, need, need_that
 
@@ -85,7 +84,7 @@ def require_settling(facts: Facts, name: str, ends: tuple[Fraction, Fraction], s
 def _first_settled(facts: Facts, settle_to: Fraction, last: int) -> int | None:
     """The smallest k <= last with norm P^k <= settle_to, or None if there is none."""
     budget = Budget(facts.design.agents)
-    step = ball = deviation(facts, SCAN_BITS)
+    step = ball = measured(deviation(facts, SCAN_BITS))
     for k in range(1, last + 1):
         sign = compare_norm_with(ball, settle_to, SCAN_BITS)
         if sign is None:
@@ -108,15 +107,17 @@ def require_rate(facts: Facts, kappa: Fraction, rho: Fraction) -> None:
 
 def _rate_sign(facts: Facts, kappa: Fraction, rho: Fraction) -> int | None:
     """1 if the bound holds for every k, -1 if it fails for one, None if that was not decided."""
-    if facts.compare_sigma(lambda _: point(rho)) in (0, 1):
+    first = facts.compare_sigma(lambda _: point(rho))
+    if first in (0, 1):
         return 1
     if kappa == 1:
-        return -1
+        return first
     budget = Budget(facts.design.agents)
-    if _exceeded(facts, kappa, rho, budget):
+    sign = _by_levels(facts, BITS[0], BASES[0], kappa, rho, budget)
+    if sign is None and _exceeded(facts, kappa, rho, budget):
         return -1
-    attempts = (_by_levels(facts, bits, base, kappa, rho, budget) for bits in BITS for base in BASES)
-    return next((sign for sign in attempts if sign is not None), None)
+    attempts = (_by_levels(facts, bits, base, kappa, rho, budget) for bits in BITS for base in BASES[1:])
+    return sign if sign is not None else next((found for found in attempts if found is not None), None)
 
 
 def _exceeded(facts: Facts, kappa: Fraction, rho: Fraction, budget: Budget) -> bool:
@@ -136,19 +137,51 @@ def _by_levels(facts: Facts, bits: int, base: int, kappa: Fraction, rho: Fractio
 
     Where a q_n <= 1, remainders below n are all that counts. Where the base exceeds that n, nothing is lost.
     """
-    unit = ball = deviation(facts, bits, 1 / rho)
-    levels = largest = Fraction(1)
-    for j in count(1):
-        q = norm_upper(ball) * Fraction(2) ** ball.exponent
-        if q <= 1:
+    unit = ball = measured(deviation(facts, bits, 1 / rho))
+    levels = Fraction(1)
+    digits = _Digits()
+    j = 0
+    while True:
+        j += 1
+        lower, upper = _ends(ball)
+        for precise in (False, True):
+            if lower <= 1 < upper or levels * upper > kappa:
+                upper = norm_upper(ball, precise) * Fraction(2) ** ball.exponent
+        if upper <= 1:
             return 1
-        if q > kappa and compare_norm_with(ball, kappa, 2 * bits) == -1:
-            return -1
-        largest = max(largest, q)
-        if levels * largest > kappa:
-            return None
+        if levels * upper > kappa:
+            if compare_norm_with(ball, kappa / levels, 2 * bits) != 1:
+                return -1 if compare_norm_with(ball, kappa, 2 * bits) == -1 else None
+            upper = kappa / levels
+        digits.add(lower, upper, ball)
         budget.spend(1, bits)
         ball = product(ball, unit, bits)
         if j % (base - 1) == 0:
-            unit, levels, largest = ball, levels * largest, Fraction(1)
-    raise AssertionError
+            unit, levels, digits = measured(ball), levels * digits.largest(), _Digits()
+            if levels > kappa:
+                return None
+
+
+def _ends(ball: Ball) -> tuple[Fraction, Fraction]:
+    """Bounds of norm M that cost little."""
+    size = Fraction(2) ** ball.exponent
+    return (isqrt(ball.stretch) - ball.error) * size, ball.frobenius * size
+
+
+class _Digits:
+    """The matrices of one level that may have the largest norm; digit 0 is the identity."""
+
+    def __init__(self) -> None:
+        self.least = Fraction(1)
+        self.rivals: list[tuple[Fraction, Ball]] = []
+
+    def add(self, lower: Fraction, upper: Fraction, ball: Ball) -> None:
+        """One more matrix, its norm between the bounds."""
+        self.least = max(self.least, lower)
+        self.rivals = [rival for rival in [*self.rivals, (upper, ball)] if rival[0] > self.least]
+
+    def largest(self) -> Fraction:
+        """An upper bound of all the norms, to 2^-30 or to the errors. Rigorous."""
+        # A rival that was dropped is below the lower bound of one that stays.
+        uppers = [norm_upper(ball) * Fraction(2) ** ball.exponent for _, ball in self.rivals]
+        return max([self.least, *uppers])

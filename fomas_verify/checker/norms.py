@@ -4,19 +4,16 @@ norm M < s is shown by t^2 I - X^T X > 0 with t = s - error, norm M > s by a neg
 A guess proposes an upper bound; only the test decides.
 """
 
+from dataclasses import replace
 from fractions import Fraction
 from math import ceil, floor, isqrt
-from operator import mul
 
 from fomas_verify.checker.ball import Ball
 from fomas_verify.checker.definite import quick_sign
 from fomas_verify.checker.graph import Rows
 
 _COARSE_BITS = 96
-_PRECISION = 30
-_ITERATIONS = 30
-_GUESS_BITS = 56
-_SLACKS = (_PRECISION, 16, 8, 2)
+_SLACKS = (30, 12, 6, 2)
 
 
 def compare_norm(ball: Ball, lower: int, upper: int, bits: int) -> int | None:
@@ -25,6 +22,8 @@ def compare_norm(ball: Ball, lower: int, upper: int, bits: int) -> int | None:
         return 1
     above = upper + ball.error
     if above < 0 or max(row[-1] for row in ball.gram) > above**2:
+        return -1
+    if isqrt(ball.stretch) > above:
         return -1
     below = lower - ball.error
     for width in (_COARSE_BITS, bits):
@@ -47,20 +46,25 @@ def compare_norm_with(ball: Ball, s: Fraction, bits: int) -> int | None:
     return compare_norm(ball, floor(scaled), ceil(scaled), bits)
 
 
-def norm_upper(ball: Ball) -> int:
-    """An upper bound of norm M / 2^exponent, to 2^-30 of it or to its error. Rigorous."""
-    guess = isqrt(_largest(ball.gram)) + 1
+def norm_upper(ball: Ball, precise: bool = True) -> int:
+    """An upper bound of norm M / 2^exponent: to 2^-30 of it or to its error, less so where not `precise`. Rigorous."""
+    guess = isqrt(ball.stretch) + 1
     below = above = guess
-    for slack in _SLACKS:
+    for slack in _SLACKS[not precise :]:
         below, above = above, guess + (guess >> slack) + 1
         if _is_above(ball, above):
             break
     else:
         above = ball.frobenius
-    while (above - below) >> max(above.bit_length() - _PRECISION, 0) > 1:
+    while precise and (above - below) >> max(above.bit_length() - _SLACKS[0], 0) > 1:
         middle = (below + above) // 2
         below, above = (below, middle) if _is_above(ball, middle) else (middle, above)
     return min(above + ball.error, ball.frobenius)
+
+
+def measured(ball: Ball) -> Ball:
+    """The same matrix, for many products: errors are then stretched by its norm only."""
+    return replace(ball, known=norm_upper(ball))
 
 
 def _is_above(ball: Ball, bound: int) -> bool:
@@ -71,18 +75,3 @@ def _is_above(ball: Ball, bound: int) -> bool:
 def _shifted(gram: Rows, square: int) -> Rows:
     """square I - X^T X, a lower triangle."""
     return [[-entry for entry in row[:-1]] + [square - row[-1]] for row in gram]
-
-
-def _largest(gram: Rows) -> int:
-    """Power iteration with rounded integers for the largest eigenvalue of X^T X: a guess, on which no truth rests."""
-    shift = max(max(row[-1] for row in gram).bit_length() - _GUESS_BITS, 0)
-    lower = [[entry >> shift for entry in row] for row in gram]
-    full = [row + [below[i] for below in lower[i + 1 :]] for i, row in enumerate(lower)]
-    vector = image = [(37 * i + 11) % 101 - 50 for i in range(len(full))]
-    for _ in range(_ITERATIONS):
-        size = max(abs(entry) for entry in image).bit_length()
-        if size == 0:
-            return 0
-        vector = [entry << _GUESS_BITS >> size for entry in image]
-        image = [sum(map(mul, row, vector)) for row in full]
-    return sum(map(mul, vector, image)) // sum(map(mul, vector, vector)) << shift

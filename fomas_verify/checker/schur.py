@@ -39,15 +39,14 @@ def _by_squaring(facts: Facts, bits: int) -> int | None:
     if size**3 * bits**2 > MAX_SQUARING_WORK:
         return None
     ball = deviation(facts, bits)
-    for _ in range(bits // 2):
+    # The error about doubles with each product, unless the powers shrink.
+    while ball.error.bit_length() < bits:
         # One is 2^-exponent units.
         if ball.frobenius.bit_length() <= -ball.exponent:
             return 1
         trace = abs(sum(column[i] for i, column in enumerate(ball.columns))) - size * ball.error
         if trace > 0 and (trace.bit_length() - 1 + ball.exponent >= size.bit_length()):
             return -1
-        if ball.error.bit_length() >= bits:
-            return None
         ball = product(ball, ball, bits)
     return None
 

@@ -197,7 +197,7 @@ def _bounded(value: object, path: str, agents: int) -> Witness:
 
 
 def _bounded_from_x0(value: object, path: str, agents: int) -> Witness:
-    return Nothing() if value == {} else _lemma(value, path, agents)
+    return Nothing() if value == {} else _bounded(value, path, agents)
 
 
 def _triangle(value: object, path: str, agents: int) -> Triangle:

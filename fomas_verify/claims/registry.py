@@ -8,11 +8,13 @@ from fomas_verify.claims import (
     average_consensus,
     beta_contraction,
     control_bounded,
+    control_norm_bound,
     gain_bound,
     graph_assumption,
     memory_inequality,
     perron_eigenvalues,
     repaired_condition,
+    trajectory_norm_bound,
 )
 from fomas_verify.claims.verdict import Decision
 from fomas_verify.spectrum.loop import Loop
@@ -38,6 +40,8 @@ CLAIMS: tuple[Claim, ...] = (
     perron_eigenvalues,
     beta_contraction,
     repaired_condition,
+    control_norm_bound,
+    trajectory_norm_bound,
     control_bounded,
     average_consensus,
 )

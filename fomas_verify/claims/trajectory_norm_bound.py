@@ -9,7 +9,7 @@ from fomas_verify.exact.matrix import apply
 from fomas_verify.spectrum.control import follow
 from fomas_verify.spectrum.loop import Loop
 from fomas_verify.spectrum.precision import SAMPLE_PRECISIONS
-from fomas_verify.spectrum.samples import UNSTABLE_SAMPLES
+from fomas_verify.spectrum.samples import UNSTABLE_SAMPLES, sample_limit
 from fomas_verify.spectrum.stability import Side, stability
 
 ID = "trajectory-norm-bound"
@@ -41,4 +41,6 @@ def decide(loop: Loop) -> Decision:
             largest = f"norm u_{found.at} / norm u_0 = {decimal(found.largest, 18)} is the largest seen"
             witness = {"samples": found.tail.last, "powers": found.tail.powers}
             return Decision(Verdict.PROVED, witness, f"{largest}; no later one exceeds 1, by the decay of P^n")
+        if found.examined == (limit or sample_limit(loop)):
+            break
     return undecided(bits, f"{found.examined} samples do not tell")

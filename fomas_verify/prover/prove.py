@@ -16,8 +16,9 @@ from fomas_verify.enclosure.interval import Interval
 from fomas_verify.enclosure.reference import DisagreementError, approx_gain_and_threshold, must_agree
 from fomas_verify.exact.errors import FomasError
 from fomas_verify.kernel.horizon import Horizon, check_horizon
-from fomas_verify.prover.sizes import Sizes
+from fomas_verify.prover.sizes import Sizes, measure
 from fomas_verify.spectrum.loop import Loop
+from fomas_verify.spectrum.stability import Side, stability
 
 DEFAULT_DIGITS = 50
 MOST_AGENTS = 200
@@ -58,7 +59,7 @@ class Proof:
 
     def value_entries(self) -> dict[str, dict[str, Any]]:
         """The values as the certificate writes them, in its order."""
-        return {name: {"lower": x.lower, "upper": x.upper} for name, x in self.values.items()}
+        return {name: {"lower": x.lower, "upper": x.upper} for name, x in self.values.items()} | self.sizes.entries()
 
 
 def prove(design: Design, *, horizon: int | None = None, digits: int = DEFAULT_DIGITS) -> Proof:
@@ -89,7 +90,7 @@ def prove(design: Design, *, horizon: int | None = None, digits: int = DEFAULT_D
     loop = Loop(design)
     values = enclose_values(loop, digits)
     _compare_with_mpmath(design, values, digits)
-    sizes = Sizes()
+    measured = measure(loop, decided_stable=stability(loop).side is Side.INSIDE)
     decisions = {
         claim.ID: claim.decide(loop) if loop.assumption1 or claim.ID in ON_ANY_GRAPH else inapplicable()
         for claim in CLAIMS
@@ -100,7 +101,7 @@ def prove(design: Design, *, horizon: int | None = None, digits: int = DEFAULT_D
     if samples is not None and loop.assumption1:
         seen = check_horizon(design.alpha, loop.beta(_bits(digits)), samples, digits)
         compare_with_closed_form(seen, decisions["memory-inequality"])
-    return Proof(design, loop, values, sizes, decisions, seen, digits)
+    return Proof(design, loop, values, measured, decisions, seen, digits)
 
 
 def _bits(digits: int) -> int:

@@ -14,6 +14,7 @@ from fomas_verify.enclosure.roots import Root, root_of
 from fomas_verify.exact.rational import format_rational
 from fomas_verify.kernel.horizon import Horizon
 from fomas_verify.prover import Proof
+from fomas_verify.prover.sizes import Sizes
 from fomas_verify.spectrum.stability import Side, stability
 
 WIDTH = 120
@@ -34,6 +35,8 @@ NAMES = {
 def proof_text(proof: Proof) -> str:
     """The verdict table, the values, the spectrum, what a refutation means, and how it ends."""
     parts = [_heading(proof.design), _verdicts(proof), _values(proof), _spectrum(proof)]
+    if proof.sizes.rate is not None:
+        parts.append(_sizes(proof.sizes))
     if proof.horizon is not None:
         parts.append(_horizon(proof))
     parts += [_refutation(name, x) for name, x in proof.decisions.items() if x.verdict is Verdict.REFUTED]
@@ -114,6 +117,31 @@ def _eigenvalue(root: Root) -> str:
         return ""
     size = decimal(root.imag, 12)
     return f"{real} +- {'' if size == '1' else size + ' '}i{times}"
+
+
+def _sizes(sizes: Sizes) -> str:
+    """How large the control gets and how fast the agents agree."""
+    lines = []
+    if sizes.peak is not None:
+        peak = decimal(sizes.peak.value, 18)
+        lines.append(f"peak of norm u_k / norm u_0 over every k and x_0: {peak}, at k = {sizes.peak.at}")
+    if sizes.rate is not None:
+        kappa, rho = (decimal(Interval.exactly(x), 12) for x in (sizes.rate.kappa, sizes.rate.rho))
+        lines.append(
+            f"norm(x_k - mean) <= kappa rho^k norm(x_0 - mean): kappa = {kappa}, rho = {rho}; also 1 and sigma"
+        )
+    if sizes.settling is not None and sizes.settle_to is not None:
+        time = "" if sizes.settling_time is None else f", t = {decimal(Interval.exactly(sizes.settling_time), 12)}"
+        lines.append(
+            f"norm(x_k - mean) <= {format_rational(sizes.settle_to)} norm(x_0 - mean) from k = {sizes.settling}{time}"
+        )
+    if sizes.reach is not None:
+        lines.append(f"norm u_k <= peak gamma norm(L x_0) = {decimal(sizes.reach, 12)} for the given x_0")
+    if sizes.overshoot is not None:
+        lines.append(f"norm(x(t) - x(t_k)) <= {decimal(sizes.overshoot, 12)} inside each sampling interval")
+    if sizes.limit is not None:
+        lines.append(f"every x_i(t) tends to {decimal(Interval.exactly(sizes.limit), 20)}")
+    return "\n".join(f"  {line}" for line in lines) + "\n"
 
 
 def _horizon(proof: Proof) -> str:

@@ -16,13 +16,17 @@ from fomas_verify.enclosure.norms import BallMatrix, approx_preimage_of_top, squ
 from fomas_verify.enclosure.real import square_root, working_precision
 from fomas_verify.exact import matrix as exact
 from fomas_verify.spectrum.loop import Loop
-from fomas_verify.spectrum.samples import COARSE, FINE, ROUGH, Samples, Tail, TailTest, phi_at
+from fomas_verify.spectrum.samples import COARSE, FINE, ROUGH, Samples, Tail, TailTest, phi_at, submultiplied
 
 EXACT_POWER_WORK = 4_000
 """Bound on ``k`` times the bits of mu's denominator, for a norm of P^k decided exactly at a rational mu."""
 
-RATE_BASE, RATE_LEVELS = 32, 8
-"""kappa is sought among the powers up to base^levels."""
+RATE_BASE, COARSE_RATE_BASE, RATE_LEVELS, SMALL_NETWORK = 32, 4, 16, 20
+"""kappa is sought among the powers up to base^levels, by fewer norms and less tightly where the network is not
+small."""
+
+EVERY_POWER = 64
+"""norm P^k is computed for every k up to here, and at powers of two."""
 
 DOUBLINGS = 64
 """The settling sample is sought below 2^64."""
@@ -64,7 +68,7 @@ def follow(loop: Loop, x0: list[Fraction], bits: int, limit: int | None = None) 
     size = exact.norm_squared(e0)
     with working_precision(bits):
         run = Samples(loop, bits)
-        test, norms = TailTest(loop.design.alpha, bits), [Fraction(1)]
+        test, powers = TailTest(loop.design.alpha, bits), {0: Fraction(1)}
         largest, at = Interval.exactly(0), 0
         for sample in run.all(limit):
             k = sample.k
@@ -73,10 +77,11 @@ def follow(loop: Loop, x0: list[Fraction], bits: int, limit: int | None = None) 
                 largest, at = ratio, k
             if ratio.lower > 1:
                 return Trajectory(k, None, largest, at, k)
-            norms.append(run.norm(sample.power, COARSE).upper)
+            if k <= EVERY_POWER or k & (k - 1) == 0:
+                powers[k] = run.norm(sample.power, COARSE).upper
             shrunk = square_root(squared_image(sample.power, e0) / size, bits).upper
             passed = test.add(shrunk if ratio.upper <= 1 else None, Fraction(1))
-            if passed and (tail := test.tail(norms[test.streak])) is not None:
+            if passed and (tail := test.tail(submultiplied(powers, test.streak))) is not None:
                 return Trajectory(None, tail, largest, at, k)
     return Trajectory(None, None, largest, at, sample.k)
 
@@ -111,10 +116,11 @@ def certified_rate(loop: Loop, bits: int) -> Rate | None:
     kappa = Fraction(1)
     with working_precision(bits):
         run = Samples(loop, bits)
+        base_size = RATE_BASE if loop.design.graph.agents <= SMALL_NETWORK else COARSE_RATE_BASE
         base, shrink = run.centered(run.perron), Interval.exactly(rho)
         for _ in range(RATE_LEVELS):
             power, bound, worst = base, shrink, Fraction(1)
-            for _ in range(RATE_BASE - 1):
+            for _ in range(base_size - 1):
                 ratio = (Interval.exactly(run.norm(power, ROUGH).upper) / bound).upper
                 if ratio <= 1:
                     kappa = round_up(kappa * worst, bits)

@@ -30,7 +30,7 @@ from fomas_verify.spectrum.loop import Loop
 COARSE, ROUGH, MIDDLE, FINE = 4, 7, 14, 52
 """Squarings of a norm on the way and of one that decides: relative widths of about 5 %, 1 %, 5e-5 and 1e-15."""
 
-SAMPLE_WORK, MOST_SAMPLES, FEWEST_SAMPLES = 500_000_000, 50_000, 200
+SAMPLE_WORK, MOST_SAMPLES, FEWEST_SAMPLES = 500_000_000, 20_000, 200
 """Bounds on ``K N^3`` and on K, the last sample examined; K may always reach the third."""
 
 UNSTABLE_SAMPLES = 2_000
@@ -189,7 +189,7 @@ def search(loop: Loop, bits: int) -> Search:
             passed = test.add(powers.get(k), least)
             if k in powers:
                 next_power = k + 1 if passed or not slow else k + 1 + k // 16
-            if passed and (tail := test.tail(powers.get(test.streak, _submultiplied(powers, test.streak)))) is not None:
+            if passed and (tail := test.tail(powers.get(test.streak, submultiplied(powers, test.streak)))) is not None:
                 peak = _refined(run, [c for c in checkpoints if c.k <= tail.last], tail, least, above)
                 return Search(peak, peak.above)
     return Search(None, above)
@@ -209,18 +209,20 @@ def phi_at(loop: Loop, k: int, bits: int) -> BallMatrix:
 
 
 def _reach(run: Samples, k: int, norm: Fraction) -> tuple[int, Fraction]:
-    """How far after k the norm certainly grows by no more than a fiftieth, for ``norm P <= 1``; and to what."""
+    """How far after k, at most twice as far, the norm certainly grows by no more than a fiftieth, and to what;
+    ``norm P <= 1``.
+    """
     bound, until = norm, k
-    while until < run.limit and (bound + run.resolvent(until + 1).upper) * 50 <= norm * 51:
+    while until < min(run.limit, 2 * k) and (bound + run.resolvent(until + 1).upper) * 50 <= norm * 51:
         until += 1
         bound += run.resolvent(until).upper
     return until, bound
 
 
-def _submultiplied(powers: dict[int, Fraction], n: int) -> Fraction:
+def submultiplied(powers: dict[int, Fraction], n: int) -> Fraction:
     """A bound of ``norm P^n`` from the norms of the powers known."""
     known = max(k for k in powers if k <= n)
-    return powers[known] * (_submultiplied(powers, n - known) if n > known else 1)
+    return powers[known] * (submultiplied(powers, n - known) if n > known else 1)
 
 
 def _refined(run: Samples, checkpoints: list[Checkpoint], tail: Tail, least: Fraction, above: int | None) -> Peak:
