@@ -53,6 +53,14 @@ class Operators:
             return 1
         return self._sign(self.samples.sample(n), bounds, n, lower, upper)
 
+    def sample_sign_of_one(self, k: int) -> int | None:
+        """The sign of 1 - norm Phi_k, or None if it is not seen."""
+        return self.sample_sign(k, self.one, self.one)
+
+    def power_sign_of_memory(self, n: int) -> int | None:
+        """The sign of c_n - p_n, or None if it is not seen."""
+        return self.power_sign(n, *self.kernel.step_response(n))
+
     def peak_sign(self, u: Enclosure) -> int | None:
         """The sign of u - peak, peak = sup norm Phi_k, or None if it is not seen.
 

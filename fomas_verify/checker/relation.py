@@ -4,7 +4,6 @@ Source: docs/certificate-format.md, section 4; theory, sections 3 (peak control)
 """
 
 from collections.abc import Callable, Iterable
-from functools import partial
 from typing import cast
 
 from fomas_verify.checker.document import State
@@ -43,9 +42,9 @@ def require_lemma(facts: Facts, witness: Lemma) -> None:
     """Return if K samples and m powers show norm Phi_k <= 1 for every k."""
     _limit(witness)
     start, m = witness.samples, witness.powers
-    one = settle(lambda bits: _all(partial(_sample_sign, facts, bits), range(1, start + 1)))
-    need(one, (1,), _SAMPLES)
-    powers = settle(lambda bits: _all(partial(_power_sign, facts, bits), range(start + 1, start + m + 1)))
+    samples = settle(lambda bits: _all(operators(facts, bits).sample_sign_of_one, range(1, start + 1)))
+    need(samples, (1,), _SAMPLES)
+    powers = settle(lambda bits: _all(operators(facts, bits).power_sign_of_memory, range(start + 1, start + m + 1)))
     need(powers, (1,), _POWERS)
     _require_decay(facts, witness)
 
@@ -85,16 +84,6 @@ def _moves(facts: Facts, x0: State) -> bool:
 def _limit(witness: Lemma) -> None:
     if witness.samples + witness.powers > MAX_SAMPLES:
         raise Undecided(f"more than {MAX_SAMPLES} samples are beyond the work allowed")
-
-
-def _sample_sign(facts: Facts, bits: int, k: int) -> int | None:
-    found = operators(facts, bits)
-    return found.sample_sign(k, found.one, found.one)
-
-
-def _power_sign(facts: Facts, bits: int, n: int) -> int | None:
-    found = operators(facts, bits)
-    return found.power_sign(n, *found.kernel.step_response(n))
 
 
 def _require_decay(facts: Facts, witness: Lemma) -> None:

@@ -39,7 +39,8 @@ def complete(n: int, weight: str = "1") -> list[list[Any]]:
 
 
 def design(edges: list[list[Any]], agents: int, alpha: str = "9/10", **more: Any) -> Json:
-    return {"alpha": alpha, **more, "agents": agents, "edges": edges, "require": more.get("require", ["gain-bound"])}
+    copied = [list(edge) for edge in edges]
+    return {"alpha": alpha, **more, "agents": agents, "edges": copied, "require": more.get("require", ["gain-bound"])}
 
 
 def claim(name: str, verdict: str, **witness: Any) -> Json:

