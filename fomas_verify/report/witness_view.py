@@ -75,6 +75,26 @@ def _sample(witness: Mapping[str, Any], _: Loop) -> str:
     return f"the first sample at which it fails, $k={witness['k']}$"
 
 
+def _start(witness: Mapping[str, Any], _: Loop) -> str:
+    x0, k = witness["x0"], witness["k"]
+    if len(x0) > SHORT_VECTOR or not _is_short(x0):
+        return f"an initial state from which $\\lVert u_{{{k}}}\\rVert>\\lVert u_0\\rVert$, {IN_CERTIFICATE}"
+    return f"from $x_0={vector(x0)}$ it follows that $\\lVert u_{{{k}}}\\rVert>\\lVert u_0\\rVert$"
+
+
+def _samples(witness: Mapping[str, Any], _: Loop) -> str:
+    last, powers = witness["samples"], witness["powers"]
+    checked = f"the samples $k=1,\\dots,{last}$ one by one, and " if last else ""
+    tail = f"$\\lVert P^n\\rVert\\le c_n$ for $n={last + 1},\\dots,{last + powers}$"
+    repeat = f"$\\lVert P^{{{powers}}}\\rVert c_{{{last + 1}}}\\le c_{{{last + powers + 1}}}$"
+    return f"{checked}{tail}, from where it repeats: {repeat}"
+
+
+def _spectrum(witness: Mapping[str, Any], _: Loop) -> str:
+    t, r = (digits(witness[key], 12) for key in ("mu", "lambda_max_upper"))
+    return rf"$t={t}\ge\mu$ and $r={r}\ge\lambda_{{\max}}(L_s)$, for which $tr\le2$, on a symmetric graph"
+
+
 def _graph(witness: Mapping[str, Any], _: Loop) -> str:
     parts = []
     if "unreachable" in witness:
@@ -97,6 +117,9 @@ _WRITERS = {
     "power": _power,
     "lambda2": _root,
     "lambda2_upper": _symmetric,
+    "lambda_max_upper": _spectrum,
+    "x0": _start,
+    "samples": _samples,
     "k": _sample,
     "unreachable": _graph,
     "imbalance": _graph,
