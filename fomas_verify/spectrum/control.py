@@ -28,6 +28,9 @@ small."""
 EVERY_POWER = 64
 """norm P^k is computed for every k up to here, and at powers of two."""
 
+LEAST_GAP, LEAST_BOUND = Fraction(1, 1 << 16), Fraction(1, 1 << 8192)
+"""No rate is sought where 1 minus the spectral radius is below the first, nor beyond powers of rho below the second."""
+
 DOUBLINGS = 64
 """The settling sample is sought below 2^64."""
 
@@ -104,13 +107,14 @@ class Rate:
 
 
 def certified_rate(loop: Loop, bits: int) -> Rate | None:
-    """A pair (kappa, rho) with ``1 - rho >= 0.99 (1 - r)``, r the spectral radius; None where P is not certainly Schur.
+    """A pair (kappa, rho) with ``1 - rho >= 0.99 (1 - r)``, r the spectral radius; None where r is too near to 1 or
+    above it.
 
     Write k in base B. At level i let ``q_ij = norm(P^(j B^i)) rho^(-j B^i)``; where one of them is at most 1, k need
     go no further, and kappa is the product over the levels of ``max_j q_ij``.
     """
     gap = 1 - spectral_radius(loop, bits).upper
-    if gap <= 0:
+    if gap < LEAST_GAP:
         return None
     rho = short_dyadic(1 - gap * Fraction(995, 1000), 1 - gap * Fraction(991, 1000))
     kappa = Fraction(1)
@@ -125,6 +129,8 @@ def certified_rate(loop: Loop, bits: int) -> Rate | None:
                 if ratio <= 1:
                     kappa = round_up(kappa * worst, bits)
                     return Rate(short_dyadic(kappa, kappa * Fraction(1001, 1000)), rho)
+                if bound.upper < LEAST_BOUND:
+                    return None
                 worst = max(worst, ratio)
                 power, bound = power * base, (bound * shrink).outward(2 * bits)
             kappa, base, shrink = round_up(kappa * worst, bits), power, bound
