@@ -1,7 +1,6 @@
-"""The only door from the attack to prover and checker: their command line, and the checker's one function.
+"""The only door from the attack to prover and checker: their one function each, and their command line.
 
-`prove` runs `verify-design prove` on a design file; `check_status` asks the checker in this process, and
-`command_line_status` in a process of its own.
+`prove` and `check_status` ask in this process, `command_line_proof` and `command_line_status` in one of their own.
 """
 
 from __future__ import annotations
@@ -11,6 +10,7 @@ import os
 import subprocess
 import sys
 import tempfile
+import traceback
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -34,7 +34,25 @@ def _run(arguments: list[str]) -> subprocess.CompletedProcess[str]:
 
 
 def prove(design: dict[str, object]) -> Proof:
-    """Run `verify-design prove` on a design."""
+    """What `verify-design prove` does with a design, in this process; 4 where the prover raises what it must not."""
+    from fomas_verify.design import read_design
+    from fomas_verify.exact.errors import FomasError
+    from fomas_verify.prover.prove import prove as decide
+
+    with tempfile.TemporaryDirectory() as folder:
+        source = Path(folder, "design.json")
+        source.write_text(json.dumps(design), encoding="utf-8")
+        try:
+            proof = decide(read_design(source))
+            return Proof(proof.exit_status, proof.certificate().encode(), "")
+        except FomasError as error:
+            return Proof(error.exit_status, b"", str(error))
+        except Exception:
+            return Proof(4, b"", traceback.format_exc())
+
+
+def command_line_proof(design: dict[str, object]) -> Proof:
+    """Run `verify-design prove` on a design in a process of its own."""
     with tempfile.TemporaryDirectory() as folder:
         source, target = Path(folder, "design.json"), Path(folder, "certificate.json")
         source.write_text(json.dumps(design), encoding="utf-8")

@@ -9,15 +9,21 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Any
+
+from mpmath import mp
 
 from . import oracle
 from .adapter import check_status, prove
 from .form import Document, read
+from .handmade import INFORMATION
 from .model import Design, assumption_1
+from .sizes import SIZES, peak, radius, settling, size_holds
 from .truth import GRAPH_VALUES, bound_holds, judge
 
+NORM_BOUNDS = ("control-norm-bound", "trajectory-norm-bound")
 WIDTHS = {"mu": 30, "beta": 30, "threshold": 30, "lambda2": 30, "sigma": 12}
-REQUIRED = tuple(claim for claim in oracle.CLAIMS if claim not in ("beta-contraction", "repaired-condition"))
+REQUIRED = tuple(claim for claim in oracle.CLAIMS if claim not in INFORMATION)
 
 
 @dataclass(frozen=True)
@@ -29,11 +35,14 @@ class Comparison:
     faults: tuple[str, ...]
     undecided: int
     certificate: bytes
+    verdicts: tuple[tuple[str, str], ...] = ()
 
 
 def _verdict_faults(document: Document, design: Design) -> tuple[list[str], int]:
     given = {claim.id: claim.verdict for claim in document.claims}
-    faults = [f"{claim}: no such claim" for claim in oracle.CLAIMS if claim not in given]
+    absent = set() if given.keys() & {*NORM_BOUNDS} else {*NORM_BOUNDS}
+    expected = {*oracle.claims_of(design)} - absent
+    faults = [f"{claim}: present or absent against the contract" for claim in expected ^ given.keys()]
     undecided = 0
     for claim, word in given.items():
         truth = oracle.verdict(design, claim)
@@ -46,8 +55,13 @@ def _verdict_faults(document: Document, design: Design) -> tuple[list[str], int]
 
 def _value_faults(document: Document, design: Design) -> list[str]:
     expected = {"mu", "threshold", "degree_max"} | (set(GRAPH_VALUES) if assumption_1(design) else set())
-    faults = [f"{key}: present or absent against the contract" for key in expected ^ set(document.values)]
-    for key, (lower, upper) in document.values.items():
+    given = document.values.keys() - {*SIZES}
+    faults = [f"{key}: present or absent against the contract" for key in expected ^ given]
+    for key, entry in document.values.items():
+        if key in SIZES:
+            faults += _size_faults(design, key, entry)
+            continue
+        lower, upper = entry["lower"], entry["upper"]
         if key in GRAPH_VALUES and not assumption_1(design):
             continue
         if bound_holds(design, key, lower, False) is False or bound_holds(design, key, upper, True) is False:
@@ -55,6 +69,22 @@ def _value_faults(document: Document, design: Design) -> list[str]:
         if upper - lower >= Fraction(1, 10 ** WIDTHS.get(key, 400)) and upper != lower:
             faults.append(f"{key}: wider than 1e-{WIDTHS.get(key)}")
     return faults
+
+
+def _size_faults(design: Design, key: str, entry: dict[str, Any]) -> list[str]:
+    """A size that does not exist, does not hold the oracle's number, or says less than it should."""
+    if size_holds(design, key, entry) is False:
+        return [f"{key}: {entry} is false"]
+    if key == "rate":
+        with mp.workdps(60 + oracle.scale(design)):
+            room = 1 - oracle.real(entry["rho"]) - mp.mpf(99) / 100 * (1 - radius(design))
+            return [] if room >= 0 else [f"rate: rho {entry['rho']} is {mp.nstr(-room, 5)} too large"]
+    if key.startswith("settling") and settling(design, entry["settle_to"]) is None:
+        return []
+    wide = {"peak_control": Fraction(1, 10**12), "actuator_reach": entry.get("upper", 0) / 10**12}.get(key, Fraction(0))
+    if key in ("peak_control", "actuator_reach") and not peak(design).closed:
+        return []
+    return [] if entry["upper"] - entry["lower"] <= wide else [f"{key}: wider than {float(wide)}"]
 
 
 def _status_fault(document: Document, status: int) -> list[str]:
@@ -73,9 +103,10 @@ def compare(name: str, design: Design) -> Comparison:
     faults += _value_faults(document, design) + _status_fault(document, proof.status)
     if document.design != design:
         faults.append(f"the certificate is about another design: {document.design}")
+    verdicts = tuple((claim.id, claim.verdict) for claim in document.claims)
     judgement = judge(proof.certificate)
     if judgement.word not in ("true", "unknown"):
         faults.append(f"the certificate is {judgement.word}: {judgement.reason}")
     if (status := check_status(proof.certificate)) != 0:
         faults.append(f"check exited {status}")
-    return Comparison(name, design, tuple(faults), undecided, proof.certificate)
+    return Comparison(name, design, tuple(faults), undecided, proof.certificate, verdicts)

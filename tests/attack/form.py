@@ -12,7 +12,7 @@ from fractions import Fraction
 from typing import Any
 
 from .digits import to_int
-from .model import Design, Edge
+from .model import Design, Edge, Start
 from .oracle import CLAIMS
 from .strict_json import Malformed, Num, Obj, loads
 
@@ -28,15 +28,34 @@ STATEMENTS = dict(
             "1 is a simple eigenvalue of P and every other eigenvalue of P lies in the open unit disc",
             "norm of P e <= beta norm of e for every e that sums to 0 (step of the proof of Theorem 1)",
             "norm of P e <= (2^alpha - 1) norm of e for every e that sums to 0 (sigma <= 2^alpha - 1)",
+            "norm u_k <= norm u_0 for every k >= 0 and every x_0 (relation eqL3)",
+            "norm u_k <= norm u_0 for every k >= 0, for the x_0 of the design",
             "for every x_0, norm u_k is bounded over k and u_k tends to 0",
             "for every x_0 and every i, x_i(t) tends to the mean of x_0 as t tends to infinity",
         ),
         strict=True,
     )
 )
-VALUES = ("mu", "threshold", "degree_max", "lambda2", "beta", "sigma")
+ENDS = ("lower", "upper")
+SETTLING = (*ENDS, "settle_to")
+VALUES: dict[str, tuple[str, ...]] = {
+    **dict.fromkeys(("mu", "threshold", "degree_max", "lambda2", "beta", "sigma"), ENDS),
+    "peak_control": (*ENDS, "at"),
+    "settling_samples": SETTLING,
+    "settling_time": SETTLING,
+    "rate": ("kappa", "rho"),
+    "actuator_reach": ENDS,
+    "limit": ENDS,
+}
 VERDICTS = ("proved", "refuted", "undecided", "inapplicable")
 MOST_AGENTS = 64
+SPECTRAL = ("perron-eigenvalues", "control-bounded", "average-consensus")
+NORM_BOUNDS = {
+    ("control-norm-bound", "proved"): (("mu", "lambda_max_upper"), ("samples", "powers")),
+    ("control-norm-bound", "refuted"): (("x0", "k"),),
+    ("trajectory-norm-bound", "proved"): ((), ("mu", "lambda_max_upper"), ("samples", "powers")),
+    ("trajectory-norm-bound", "refuted"): (("k",),),
+}
 
 
 class Unclear(Exception):
@@ -58,7 +77,7 @@ class Document:
     """A certificate of good form."""
 
     design: Design
-    values: dict[str, tuple[Fraction, Fraction]]
+    values: dict[str, dict[str, Any]]
     claims: tuple[Claim, ...]
 
 
@@ -80,6 +99,8 @@ def integer(item: Any, least: int) -> int:
         raise Malformed("expected an integer")
     if item.text == "-0":
         raise Unclear("-0 for a count")
+    if len(item.text) > 80:
+        raise Malformed("more than 80 digits")
     number = to_int(item.text)
     if number < least:
         raise Malformed("integer out of range")
@@ -128,24 +149,21 @@ def _edges(item: Any, agents: int) -> tuple[Edge, ...]:
     return tuple(sorted(edges))
 
 
-def _x0(item: Any, agents: int) -> None:
+def _x0(item: Any, agents: int) -> Start:
     entries = items(item)
     if len(entries) != agents:
         raise Malformed("x0 of the wrong length")
     if any(isinstance(entry, list) for entry in entries):
         if len({len(items(entry, 1)) for entry in entries}) != 1:
             raise Malformed("x0 of unequal lengths")
-        entries = [x for entry in entries for x in entry]
-    for x in entries:
-        rational(x)
+        return tuple(tuple(map(rational, entry)) for entry in entries)
+    return tuple(map(rational, entries))
 
 
 def _alpha(item: Any) -> Fraction:
     alpha = rational(item)
     if not 0 < alpha < 1 or alpha.denominator >= 2**64:
         raise Malformed("alpha out of range")
-    if max(to_int(part) for part in item.split("/")) >= 2**64:
-        raise Unclear("alpha below 2^64 only in lowest terms")
     return alpha
 
 
@@ -158,13 +176,11 @@ def _design(item: Any) -> Design:
     if any(x <= 0 for x in positive.values()):
         raise Malformed("gamma, mu and h are positive")
     edges = _edges(found["edges"], agents)
-    if "x0" in found:
-        _x0(found["x0"], agents)
+    x0 = _x0(found["x0"], agents) if "x0" in found else None
     wanted = [one_of(claim, CLAIMS) for claim in items(found["require"], 1)]
     if len(set(wanted)) != len(wanted):
         raise Malformed("repeated claim in require")
-    h = positive.get("h") if "gamma" in found else None
-    return Design(alpha, agents, edges, positive.get("mu"), positive.get("gamma"), h)
+    return Design(alpha, agents, edges, positive.get("mu"), positive.get("gamma"), positive.get("h"), x0)
 
 
 def triangle(item: Any, size: int) -> list[list[Fraction]]:
@@ -211,7 +227,9 @@ def _shapes(claim: str, verdict: str) -> tuple[tuple[tuple[str, ...], ...], bool
     """The key sets a witness may have, and whether any non-empty part of the first will do."""
     if verdict == "undecided":
         return (("bits",),), False
-    if claim in CLAIMS[3:4] + CLAIMS[6:8] and verdict in ("proved", "refuted"):
+    if (claim, verdict) in NORM_BOUNDS:
+        return NORM_BOUNDS[claim, verdict], False
+    if claim in SPECTRAL and verdict in ("proved", "refuted"):
         return ((("mu", "Q"),) if verdict == "proved" else (("mu", "power"), ("mu", "Y"))), False
     if claim == "beta-contraction" and verdict == "proved":
         return (("mu", "lambda2"), ("mu", "lambda2_upper", "lambda_max_upper")), False
@@ -239,7 +257,10 @@ def _witness(item: Any, claim: str, verdict: str, agents: int) -> dict[str, Any]
         "lambda2": _polynomial,
         "unreachable": _pair,
         "imbalance": _imbalance,
-        "k": lambda x: integer(x, 0),
+        "k": lambda x: integer(x, 1 if (claim, verdict) in NORM_BOUNDS else 0),
+        "samples": lambda x: integer(x, 0),
+        "powers": lambda x: integer(x, 1),
+        "x0": lambda x: _vector(x, agents),
         "e": lambda x: _vector(x, agents),
     }
     return {key: readers.get(key, rational)(value) for key, value in item.pairs}
@@ -267,10 +288,10 @@ def read(data: bytes) -> Document:
     if any(map(_is_surrogate, tool["version"])):
         raise Malformed("a lone surrogate is no character")
     design = _design(found["design"])
-    values = {}
-    for key, bounds in members(found["values"], (), VALUES).items():
-        ends = members(bounds, ("lower", "upper"))
-        values[key] = (rational(ends["lower"]), rational(ends["upper"]))
+    values = {
+        key: {name: integer(x, 0) if name == "at" else rational(x) for name, x in members(entry, VALUES[key]).items()}
+        for key, entry in members(found["values"], (), tuple(VALUES)).items()
+    }
     claims = tuple(_claim(item, design.agents) for item in items(found["claims"], 1))
     if len({claim.id for claim in claims}) != len(claims):
         raise Malformed("repeated claim")

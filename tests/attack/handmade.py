@@ -13,10 +13,10 @@ from typing import Any
 
 from mpmath import mp
 
-from . import oracle, ties
+from . import oracle, sizes, ties
 from .digits import ratio
 from .exact import Matrix, charpoly, matmul, transpose
-from .form import STATEMENTS, Claim
+from .form import STATEMENTS, VALUES, Claim
 from .model import (
     Design,
     adjacency,
@@ -27,11 +27,16 @@ from .model import (
     perron_on_differences,
     reachability,
     symmetric_part,
+    x0_columns,
 )
+from .oracle import _orthonormal_basis
+from .response import on_1perp, trajectory
 from .strict_json import Num, Obj, dumps
 from .truth import GRAPH_VALUES, _shown
 
 DIGITS = 36
+SETTLE_TO = Fraction(1, 100)
+INFORMATION = ("beta-contraction", "repaired-condition", "control-norm-bound", "trajectory-norm-bound")
 NUMBERS: dict[str, Any] = {
     "mu": oracle.mu,
     "threshold": oracle.threshold,
@@ -169,6 +174,8 @@ def candidates(design: Design, claim: str, verdict: str) -> Iterator[dict[str, A
         else:
             yield from _invariant_form(design)
             yield from _growing_power(design)
+    elif claim in ("control-norm-bound", "trajectory-norm-bound") and verdict != "inapplicable":
+        yield from _norm_bound(design, claim, verdict)
     elif claim == "beta-contraction" and verdict == "proved":
         yield from _symmetric_ends(design)
         yield from _algebraic(design)
@@ -180,6 +187,71 @@ def candidates(design: Design, claim: str, verdict: str) -> Iterator[dict[str, A
         yield from _broken_graph(design)
     else:
         yield {}
+
+
+def _norm_bound(design: Design, claim: str, verdict: str) -> Iterator[dict[str, Any]]:
+    """For k <= 40 the x_0 that Phi_k enlarges most, or k alone; samples and tail, or the closed form."""
+    own = claim == "trajectory-norm-bound"
+    controls = trajectory(design) if own else on_1perp(design)
+    if controls is None:
+        yield {}
+        return
+    c = controls.kernel.c
+    if verdict == "refuted":
+        rising = [k for k in range(1, 41) if controls.control_norm(k) > 1]
+        for k in rising:
+            yield from [{"k": k}] if own else ({"x0": x, "k": k} for x in _starts(design, k))
+        return
+    for samples in range(41):
+        if controls.power_norm(samples + 1) <= c(samples + 1):
+            yield from ({"samples": samples, "powers": m} for m in range(1, 21))
+    yield from ({"mu": ends["mu"], "lambda_max_upper": ends["lambda_max_upper"]} for ends in _symmetric_ends(design))
+
+
+def _starts(design: Design, k: int) -> Iterator[list[Fraction]]:
+    """Integer vectors near the x_0 for which norm(Phi_k L x_0) / norm(L x_0) is largest."""
+    response, n = on_1perp(design), design.agents
+    with mp.workdps(40):
+        top = list(mp.svd(response.control_matrix(k))[2][0, :])
+        basis = _orthonormal_basis(n)
+        lap = basis.T * mp.matrix([[oracle.real(x) for x in row] for row in laplacian(design)]) * basis
+        x0 = basis * mp.lu_solve(lap, mp.matrix(top))
+        x0 /= max(abs(x) for x in x0)
+        for bits in (3, 10, 30, 80):
+            yield [_dyadic(x * mp.mpf(2) ** bits, 0) for x in x0]
+
+
+def _size_entries(design: Design) -> dict[str, Any]:
+    """The sizes as a certificate states them, where the oracle has them."""
+    entries: dict[str, Any] = {}
+    if sizes.exists(design, "peak_control"):
+        found, response = sizes.peak(design), on_1perp(design)
+        top = mp.mpf(1) if found.at == 0 else response.exact_control_norm(found.at)
+        if found.closed:
+            lower, upper = (Fraction(1), Fraction(1)) if found.at == 0 else outward(top)
+            entries["peak_control"] = {"lower": lower, "upper": upper, "at": found.at}
+            if sizes.exists(design, "actuator_reach"):
+                with mp.workdps(response.dps):
+                    ends = outward(top * sizes.reach_factor(design)[0])
+                entries["actuator_reach"] = {"lower": ends[0], "upper": ends[1]}
+        k, settle_to = sizes.settling(design, SETTLE_TO), {"settle_to": SETTLE_TO}
+        if k is not None:
+            entries["settling_samples"] = {"lower": Fraction(k), "upper": Fraction(k), **settle_to}
+            if design.h is not None:
+                entries["settling_time"] = {"lower": k * design.h, "upper": k * design.h, **settle_to}
+        entries |= _rate_entry(design)
+    if sizes.exists(design, "limit"):
+        mean = sum(x0_columns(design)[0], Fraction(0)) / design.agents
+        entries["limit"] = {"lower": mean, "upper": mean}
+    return {key: entries[key] for key in VALUES if key in entries}
+
+
+def _rate_entry(design: Design) -> dict[str, Any]:
+    rho = 1 - Fraction(float(1 - sizes.radius(design))).limit_denominator(10**6) * Fraction(199, 200)
+    for kappa in (1, 2, 4, 8, 16, 64):
+        if 0 < rho < 1 and sizes.rate_holds(design, Fraction(kappa), rho):
+            return {"rate": {"kappa": Fraction(kappa), "rho": rho}}
+    return {}
 
 
 def _tree(item: Any) -> Any:
@@ -211,10 +283,11 @@ def claim_tree(design: Design, claim: str) -> Obj | None:
 def design_tree(design: Design) -> Obj:
     """The design as section 2 writes it."""
     given = {"alpha": design.alpha, "gamma": design.gamma, "mu": design.mu, "h": design.h}
-    required = [claim for claim in oracle.CLAIMS if claim not in ("beta-contraction", "repaired-condition")]
+    required = [claim for claim in oracle.CLAIMS if claim not in INFORMATION]
     edges = [[source, target, weight] for source, target, weight in sorted(design.edges)]
     known = {key: value for key, value in given.items() if value is not None}
-    return Obj(_tree({**known, "agents": design.agents, "edges": edges, "require": required}).pairs)
+    start = {} if design.x0 is None else {"x0": design.x0}
+    return Obj(_tree({**known, "agents": design.agents, "edges": edges, **start, "require": required}).pairs)
 
 
 def certificate(design: Design, version: str = "0") -> bytes:
@@ -225,8 +298,9 @@ def certificate(design: Design, version: str = "0") -> bytes:
         if key not in GRAPH_VALUES or assumption_1(design)
     ]
     ends = {key: enclosure(design, key) for key in keys}
-    values = {key: {"lower": lower, "upper": upper} for key, (lower, upper) in ends.items()}
-    claims = [tree for claim in oracle.CLAIMS if (tree := claim_tree(design, claim)) is not None]
+    values: dict[str, Any] = {key: {"lower": lower, "upper": upper} for key, (lower, upper) in ends.items()}
+    values |= _size_entries(design)
+    claims = [tree for claim in oracle.claims_of(design) if (tree := claim_tree(design, claim)) is not None]
     tree = Obj(
         [
             ("format", "fomas-certificate/1"),

@@ -7,18 +7,22 @@ Source: docs/certificate-format.md.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import lru_cache
 
 from .exact import Matrix, combine, identity, matmul, transpose
 
 Edge = tuple[int, int, Fraction]
+Start = tuple[Fraction, ...] | tuple[tuple[Fraction, ...], ...]
 
 
 @dataclass(frozen=True)
 class Design:
-    """alpha, the gain (gamma and h, or mu), and edges (from, to, weight); agents count from 1."""
+    """alpha, the gain (gamma and h, or mu), edges (from, to, weight) and x_0; agents count from 1.
+
+    `settle_to` is asked of the prover and is no part of the design that a certificate is about.
+    """
 
     alpha: Fraction
     agents: int
@@ -26,16 +30,29 @@ class Design:
     mu: Fraction | None = None
     gamma: Fraction | None = None
     h: Fraction | None = None
+    x0: Start | None = None
+    settle_to: Fraction | None = field(default=None, compare=False)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "edges", tuple(sorted(self.edges)))
 
     def mapping(self, name: str) -> dict[str, object]:
         """The design as a user would write it, for a design file."""
-        given = {"alpha": self.alpha, "mu": self.mu, "gamma": self.gamma, "h": self.h}
+        given = {"alpha": self.alpha, "mu": self.mu, "gamma": self.gamma, "h": self.h, "settle_to": self.settle_to}
         numbers: dict[str, object] = {key: str(value) for key, value in given.items() if value is not None}
         edges = [[source, target, str(weight)] for source, target, weight in self.edges]
-        return {"name": name, **numbers, "graph": {"agents": self.agents, "edges": edges}}
+        start = {} if self.x0 is None else {"x0": [_written(entry) for entry in self.x0]}
+        return {"name": name, **numbers, **start, "graph": {"agents": self.agents, "edges": edges}}
+
+
+def _written(entry: Fraction | tuple[Fraction, ...]) -> str | list[str]:
+    return [str(x) for x in entry] if isinstance(entry, tuple) else str(entry)
+
+
+def x0_columns(design: Design) -> tuple[tuple[Fraction, ...], ...]:
+    """x_0 as columns of N numbers, one for each dimension of the agents; none where it is not given."""
+    rows = [entry if isinstance(entry, tuple) else (entry,) for entry in design.x0 or ()]
+    return tuple(zip(*rows, strict=True))
 
 
 @lru_cache(maxsize=512)

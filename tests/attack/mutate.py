@@ -282,15 +282,24 @@ def named(tree: Any, at: Path) -> str:
 def value_mutants(tree: Obj) -> list[tuple[str, Obj]]:
     """The values widened, and for each absent one the certificate with it invented."""
     first = tree["values"].pairs
-    out = [(f"value {key} invented", ("values", [*first, (key, _ends())])) for key in VALUES if key not in dict(first)]
-    out += [("values widened", ("values", [(key, _widened(ends)) for key, ends in first]))]
+    absent = [key for key in VALUES if key not in dict(first)]
+    out = [(f"value {key} invented", ("values", [*first, (key, _invented(key))])) for key in absent]
+    out += [("values widened", ("values", [(key, _widened(entry)) for key, entry in first]))]
     return [(label, Obj([(k, Obj(new) if k == at else v) for k, v in tree.pairs])) for label, (at, new) in out]
 
 
-def _ends() -> Obj:
-    return Obj([("lower", "-1000"), ("upper", "1000")])
+def _invented(key: str) -> Obj:
+    ends = {"lower": "-1000", "upper": "1000", "at": Num("0"), "settle_to": "1/100"}
+    entry = {**ends, "kappa": "1000", "rho": "999/1000"}
+    return Obj([(name, entry[name]) for name in VALUES[key]])
 
 
-def _widened(ends: Obj) -> Obj:
-    step = {"lower": Fraction(-1, 1000), "upper": Fraction(1, 1000)}
-    return Obj([(key, ratio(Fraction(*_parts(text)) + step[key])) for key, text in ends.pairs])
+def _widened(entry: Obj) -> Obj:
+    thousandth = Fraction(1, 1000)
+    change: dict[str, Callable[[Fraction], Fraction]] = {
+        "lower": lambda x: x - thousandth,
+        "upper": lambda x: x + thousandth,
+        "kappa": lambda x: x + thousandth,
+        "rho": lambda x: x + (1 - x) * thousandth,
+    }
+    return Obj([(key, ratio(change[key](Fraction(*_parts(x)))) if key in change else x) for key, x in entry.pairs])

@@ -1,4 +1,4 @@
-"""Truth of the eight claims and the numbers of a design, from their definitions, at 60 digits and more.
+"""Truth of the ten claims and the numbers of a design, from their definitions, at 60 digits and more.
 
 Margins are positive where a claim is true. A margin that 300 digits do not separate from zero is decided by the exact
 tests of `ties`, or not at all. Notation as in docs/certificate-format.md; sources: docs/certificate-format.md, and for
@@ -28,6 +28,8 @@ CLAIMS = (
     "perron-eigenvalues",
     "beta-contraction",
     "repaired-condition",
+    "control-norm-bound",
+    "trajectory-norm-bound",
     "control-bounded",
     "average-consensus",
 )
@@ -219,6 +221,18 @@ def _repaired(design: Design) -> Answer:
     return settle(design, lambda dps: threshold(design, dps) - sigma(design, dps), lambda: ties.repaired(design))
 
 
+def _control_norm_bound(design: Design) -> Answer:
+    from .bounds import control_norm_bound
+
+    return control_norm_bound(design)
+
+
+def _trajectory_norm_bound(design: Design) -> Answer:
+    from .bounds import trajectory_norm_bound
+
+    return trajectory_norm_bound(design)
+
+
 _DECIDE: dict[str, Callable[[Design], Answer]] = {
     "graph-assumption": _graph_assumption,
     "gain-bound": _gain_bound,
@@ -226,6 +240,8 @@ _DECIDE: dict[str, Callable[[Design], Answer]] = {
     "perron-eigenvalues": _perron,
     "beta-contraction": _contraction,
     "repaired-condition": _repaired,
+    "control-norm-bound": _control_norm_bound,
+    "trajectory-norm-bound": _trajectory_norm_bound,
     "control-bounded": _perron,
     "average-consensus": _perron,
 }
@@ -238,6 +254,11 @@ def decide(design: Design, claim: str) -> Answer:
         return _DECIDE[claim](design)
     except UNDECIDED:
         return Answer(None)
+
+
+def claims_of(design: Design) -> tuple[str, ...]:
+    """The claims that can be made about a design: the one on its trajectory only where x0 is given."""
+    return tuple(claim for claim in CLAIMS if claim != "trajectory-norm-bound" or design.x0 is not None)
 
 
 def verdict(design: Design, claim: str) -> str | None:

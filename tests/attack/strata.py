@@ -11,8 +11,10 @@ from dataclasses import replace
 from fractions import Fraction
 from random import Random
 
+from mpmath import mp
+
 from .designs import bipartite, complete, cycle, directed_cycle, path, star
-from .model import Design, Edge, degree_max
+from .model import Design, Edge, degree_max, laplacian, symmetric_part
 
 F = Fraction
 Graph = tuple[int, tuple[Edge, ...]]
@@ -122,6 +124,28 @@ def _tied(random: Random) -> Design:
     return Design(alpha, agents, scaled, mu=(random.choice(gains) + nudge) / weight)
 
 
+def _started(random: Random, design: Design) -> Design:
+    """The design with an x_0 in four cases of six, and a level to settle to in as many."""
+    n, kind = design.agents, random.choice(("none", "none", "few digits", "few digits", "slowest", "near"))
+    settle_to = random.choice((None, None, F(1, 2), F(1, 100), F(random.randint(1, 99), 100), F(1, 10**6)))
+    design = replace(design, settle_to=settle_to)
+    if kind == "none":
+        return design
+    few = [F(random.randint(-99, 99), 10) for _ in range(n)]
+    if kind == "few digits":
+        return replace(design, x0=tuple(few if random.random() < 0.9 else [few[0]] * n))
+    return replace(design, x0=_along_an_eigenvector(design, random.choice((2, 4)) if kind == "slowest" else 15))
+
+
+def _along_an_eigenvector(design: Design, decimals: int) -> tuple[Fraction, ...]:
+    """An eigenvector of L_s for lambda2, rounded: there a norm of u exceeds the first one soonest."""
+    with mp.workdps(40):
+        form = symmetric_part(laplacian(design))
+        values, vectors = mp.eigsy(mp.matrix([[mp.mpf(x.numerator) / x.denominator for x in row] for row in form]))
+        order = sorted(range(design.agents), key=lambda k: values[k])
+        return tuple(F(int(mp.nint(vectors[i, order[1]] * 10**decimals)), 10**decimals) for i in range(design.agents))
+
+
 STRATA: dict[str, Callable[[Random], Design]] = {
     "past": lambda random: _with_gain(random, balanced(random), _alpha(random), 1.0, 3.0),
     "bipartite": lambda random: _with_gain(random, bipartite_digraph(random), _alpha(random), 0.85, 1.0),
@@ -138,7 +162,7 @@ def design_at(seed: int, index: int) -> tuple[str, Design]:
     """The design with this index under this seed, and its name; the strata take turns."""
     stratum = list(STRATA)[index % len(STRATA)]
     random = Random(f"{seed}/{index}")
-    return f"{stratum} {seed}/{index}", STRATA[stratum](random)
+    return f"{stratum} {seed}/{index}", _started(random, STRATA[stratum](random))
 
 
 def designs(seed: int, count: int, start: int = 0) -> Iterator[tuple[str, Design]]:

@@ -19,6 +19,12 @@ GOLDEN = (
     "k5-negative-beta",
     "unbalanced",
     "two-islands",
+    "paper-trajectory",
+    "paper-worst-trajectory",
+    "paper-at-rest",
+    "paper-repaired",
+    "weighted-cycles-trajectory",
+    "k2-deadbeat-trajectory",
 )
 
 

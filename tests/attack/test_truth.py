@@ -65,6 +65,48 @@ FALSE: dict[str, tuple[str, Change]] = {
     "statement": ("paper", lambda t: claim(t, "gain-bound").update(statement="0 < mu < 1/Delta_max")),
     "another gain": ("paper", lambda t: t["design"].update(gamma="149/1000")),
     "ends crossed": ("paper", lambda t: t["values"]["degree_max"].update(lower="3")),
+    "peak too low": ("paper", lambda t: t["values"]["peak_control"].update(upper="101283/100000")),
+    "peak not there": ("paper", lambda t: t["values"]["peak_control"].update(at=2)),
+    "settled too early": ("paper-trajectory", lambda t: t["values"]["settling_samples"].update(lower="0", upper="19")),
+    "settled to nothing": ("paper-trajectory", lambda t: t["values"]["settling_samples"].update(settle_to="0")),
+    "settled in samples": ("paper-trajectory", lambda t: t["values"]["settling_time"].update(lower="20", upper="20")),
+    "faster than the radius": ("paper", lambda t: t["values"]["rate"].update(kappa="1000000", rho="742/1000")),
+    "kappa below sigma": ("paper", lambda t: t["values"]["rate"].update(kappa="1", rho="88/100")),
+    "kappa below 1": ("k2-deadbeat", lambda t: t["values"]["rate"].update(kappa="99/100")),
+    "rho 1": ("paper", lambda t: t["values"]["rate"].update(rho="1")),
+    "reach without x0": ("paper", lambda t: t["values"].update(actuator_reach={"lower": "0", "upper": "1000"})),
+    "another limit": ("paper-trajectory", lambda t: t["values"]["limit"].update(lower="-9", upper="3")),
+    "limit of vectors": (
+        "paper-trajectory",
+        lambda t: (t["design"].update(x0=[["1"]] * 5), t["values"].pop("actuator_reach")),
+    ),
+    "peak of a loop that grows": (
+        "paper-past-mu-star",
+        lambda t: t["values"].update(peak_control={"lower": "0", "upper": "1000", "at": 0}),
+    ),
+    "first control not exceeded": ("paper", lambda t: claim(t, "control-norm-bound")["witness"].update(k=2)),
+    "consensus from the start": ("paper", lambda t: claim(t, "control-norm-bound")["witness"].update(x0=["1"] * 5)),
+    "closed form of a digraph": (
+        "paper-repaired",
+        lambda t: claim(t, "control-norm-bound").update(witness={"mu": "1/5", "lambda_max_upper": "3"}),
+    ),
+    "closed form beyond two": (
+        "c4-third",
+        lambda t: claim(t, "control-norm-bound").update(witness={"mu": "501/1000", "lambda_max_upper": "4"}),
+    ),
+    "eigenvalue too low": (
+        "c4-third",
+        lambda t: claim(t, "control-norm-bound").update(witness={"mu": "1/3", "lambda_max_upper": "39/10"}),
+    ),
+    "trajectory by the closed form of a digraph": (
+        "paper-trajectory",
+        lambda t: claim(t, "trajectory-norm-bound").update(witness={"mu": "1/7", "lambda_max_upper": "3"}),
+    ),
+    "not at rest": ("paper-trajectory", lambda t: claim(t, "trajectory-norm-bound").update(witness={})),
+    "trajectory without x0": (
+        "paper-trajectory",
+        lambda t: (t["design"].pop("x0"), t["values"].pop("actuator_reach"), t["values"].pop("limit")),
+    ),
 }
 TRUE: dict[str, tuple[str, Change]] = {
     "undecided": ("paper", lambda t: claim(t, "memory-inequality").update(verdict="undecided", witness={"bits": 4096})),
@@ -80,6 +122,26 @@ TRUE: dict[str, tuple[str, Change]] = {
         lambda t: claim(t, "beta-contraction").update(
             witness={"mu": "1/3", "lambda2": {"polynomial": ["-2", "1"], "lower": "1", "upper": "2"}}
         ),
+    ),
+    "peak widened": ("paper", lambda t: t["values"]["peak_control"].update(lower="1", upper="2")),
+    "peak at the start": ("paper", lambda t: t["values"]["peak_control"].update(lower="1", upper="2", at=0)),
+    "kappa raised": ("paper", lambda t: t["values"]["rate"].update(kappa="1000")),
+    "settling widened": ("paper-trajectory", lambda t: t["values"]["settling_samples"].update(lower="-1", upper="21")),
+    "closed form at two": (
+        "c4-third",
+        lambda t: claim(t, "control-norm-bound").update(witness={"mu": "1/2", "lambda_max_upper": "4"}),
+    ),
+    "trajectory by the closed form": (
+        "k2-deadbeat-trajectory",
+        lambda t: claim(t, "trajectory-norm-bound").update(witness={"mu": "1/2", "lambda_max_upper": "2"}),
+    ),
+    "more samples": (
+        "paper-repaired",
+        lambda t: claim(t, "control-norm-bound").update(witness={"samples": 5, "powers": 9}),
+    ),
+    "another start": (
+        "paper",
+        lambda t: claim(t, "control-norm-bound").update(witness={"x0": ["0", "-1", "-1", "-1", "1"], "k": 1}),
     ),
 }
 MALFORMED: dict[str, tuple[str, Change]] = {
@@ -103,6 +165,16 @@ MALFORMED: dict[str, tuple[str, Change]] = {
     "witness of another shape": ("paper", lambda t: claim(t, "control-bounded").update(witness={})),
     "witness for nothing": ("paper", lambda t: claim(t, "gain-bound").update(witness={"k": 0})),
     "upper triangle": ("paper", lambda t: claim(t, "control-bounded")["witness"].update(Q=[["1"] * 4] * 4)),
+    "k below 1": ("paper", lambda t: claim(t, "control-norm-bound")["witness"].update(k=0)),
+    "no powers": ("paper-trajectory", lambda t: claim(t, "trajectory-norm-bound")["witness"].update(powers=0)),
+    "samples below 0": ("paper-trajectory", lambda t: claim(t, "trajectory-norm-bound")["witness"].update(samples=-1)),
+    "x0 of the wrong length": ("paper", lambda t: claim(t, "control-norm-bound")["witness"].update(x0=["1"] * 4)),
+    "peak without at": ("paper", lambda t: t["values"]["peak_control"].pop("at")),
+    "at below 0": ("paper", lambda t: t["values"]["peak_control"].update(at=-1)),
+    "at in a string": ("paper", lambda t: t["values"]["peak_control"].update(at="1")),
+    "rate with ends": ("paper", lambda t: t["values"]["rate"].update(lower="0")),
+    "settling without settle_to": ("paper", lambda t: t["values"]["settling_samples"].pop("settle_to")),
+    "k of 81 digits": ("paper", lambda t: claim(t, "control-norm-bound")["witness"].update(k=10**80)),
     "agents beyond memory": ("k2-swap", lambda t: t["design"].update(agents=10**30)),
 }
 

@@ -18,6 +18,7 @@ from mpmath import mp
 from . import oracle, ties
 from .exact import Matrix, Root, combine, count_roots, is_pd, is_psd, is_psd_at, matmul, sign_at, transpose
 from .form import STATEMENTS, Claim, Document, Unclear, read
+from .gain import Truth, both, mu_at_least, mu_at_most, positive
 from .model import (
     Design,
     adjacency,
@@ -30,10 +31,11 @@ from .model import (
     reachability,
     symmetric_part,
 )
+from .norm_witness import control_shown, trajectory_shown
+from .sizes import SIZES, size_holds
 from .strict_json import Malformed
 
 GRAPH_VALUES = ("lambda2", "beta", "sigma")
-Truth = bool | None
 
 
 @dataclass(frozen=True)
@@ -42,30 +44,6 @@ class Judgement:
 
     word: str
     reason: str = ""
-
-
-def both(*parts: Truth) -> Truth:
-    """Three-valued and."""
-    return False if False in parts else None if None in parts else True
-
-
-def positive(design: Design, margin: Callable[[int], Any], exact: Callable[[], Truth] | None = None) -> Truth:
-    """Whether a real number is >= 0, given its value at any number of digits; ties by the exact test or not at all."""
-    return oracle.settle(design, margin, exact).truth
-
-
-def mu_at_most(design: Design, t: Fraction) -> Truth:
-    """mu <= t."""
-    if design.mu is not None:
-        return design.mu <= t
-    return positive(design, lambda dps: oracle.real(t) - oracle.mu(design, dps + 10))
-
-
-def mu_at_least(design: Design, t: Fraction) -> Truth:
-    """mu >= t."""
-    if design.mu is not None:
-        return design.mu >= t
-    return positive(design, lambda dps: oracle.mu(design, dps + 10) - oracle.real(t))
 
 
 def _lambda2_at_most(design: Design, s: Fraction) -> bool:
@@ -110,7 +88,10 @@ def bound_holds(design: Design, key: str, bound: Fraction, upper: bool) -> Truth
     return positive(design, margin, lambda: _exact_bound(design, key, bound, upper))
 
 
-def _value(design: Design, key: str, lower: Fraction, upper: Fraction) -> Truth:
+def _value(design: Design, key: str, entry: dict[str, Any]) -> Truth:
+    if key in SIZES:
+        return size_holds(design, key, entry)
+    lower, upper = entry["lower"], entry["upper"]
     if key in GRAPH_VALUES and not assumption_1(design):
         return False
     return both(bound_holds(design, key, lower, False), bound_holds(design, key, upper, True))
@@ -245,6 +226,10 @@ def _shown(design: Design, claim: Claim) -> Truth:
         return _spectral(design, claim)
     if claim.id == "beta-contraction":
         return _contraction(design, claim)
+    if claim.id == "control-norm-bound":
+        return control_shown(design, claim)
+    if claim.id == "trajectory-norm-bound":
+        return trajectory_shown(design, claim)
     if claim.verdict == "refuted" and claim.id == "graph-assumption":
         return _graph(design, claim.witness)
     if claim.verdict == "refuted" and claim.id == "memory-inequality":
@@ -255,7 +240,7 @@ def _shown(design: Design, claim: Claim) -> Truth:
 
 
 def _claim(design: Design, claim: Claim) -> Truth:
-    if claim.statement != STATEMENTS[claim.id]:
+    if claim.statement != STATEMENTS[claim.id] or claim.id not in oracle.claims_of(design):
         return False
     applicable = claim.id in oracle.ANY_GRAPH or assumption_1(design)
     if not applicable or claim.verdict == "inapplicable":
@@ -270,7 +255,7 @@ def _claim(design: Design, claim: Claim) -> Truth:
 
 def _parts(document: Document) -> list[tuple[str, Truth]]:
     design = document.design
-    values = [(key, _value(design, key, *ends)) for key, ends in document.values.items()]
+    values = [(key, _value(design, key, entry)) for key, entry in document.values.items()]
     return values + [(claim.id, _claim(design, claim)) for claim in document.claims]
 
 
