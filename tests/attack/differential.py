@@ -21,7 +21,6 @@ from .model import Design, assumption_1
 from .sizes import SIZES, peak, radius, settling, size_holds
 from .truth import GRAPH_VALUES, bound_holds, judge
 
-NORM_BOUNDS = ("control-norm-bound", "trajectory-norm-bound")
 WIDTHS = {"mu": 30, "beta": 30, "threshold": 30, "lambda2": 30, "sigma": 12}
 REQUIRED = tuple(claim for claim in oracle.CLAIMS if claim not in INFORMATION)
 
