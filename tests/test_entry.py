@@ -66,8 +66,17 @@ def test_traceback_only_on_demand(tmp_path: Path, checkout: Path) -> None:
     assert run.stderr.splitlines()[-1].startswith(PREFIX)
 
 
+INTERRUPTED = f"""
+import signal
+
+def main():
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # a background job starts with it ignored
+    signal.raise_signal({signal.SIGINT.value})
+"""
+
+
 def test_interruption_is_130_and_quiet(tmp_path: Path, checkout: Path) -> None:
-    run = start(tmp_path, checkout, f"import signal\ndef main(): signal.raise_signal({signal.SIGINT.value})")
+    run = start(tmp_path, checkout, INTERRUPTED)
     assert (run.returncode, run.stderr) == (130, "")
 
 
