@@ -17,7 +17,7 @@ TRACES = re.compile(
             r"(?<![\w.])/" + r"(?:work|root|home|Users|opt)/\w",
             r"(?i:[A-Z]:\\" + r"Users\\)",
             "pypi" + r"\.org",
-            "pythonhosted" + r"\.org",
+            "python" + r"hosted\.org",
             "deb" + r"\.debian\.org",
             "npmjs" + r"\.(?:org|com)",
             r"--(?:extra-)?index" + "-url",
@@ -83,7 +83,7 @@ def test_no_traces_of_a_machine_or_a_registry(checkout: Path) -> None:
         "C:\\" + "Users\\me",
         "--index" + "-url https://example.invalid/simple",
         "--find" + "-links wheels",
-        "https://files.pythonhosted" + ".org/packages/x",
+        "https://files.python" + "hosted.org/packages/x",
     ],
 )
 def test_traces_are_seen(line: str) -> None:
