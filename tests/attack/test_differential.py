@@ -37,6 +37,7 @@ def test_verdicts_known_without_the_oracle(name):
     assert KNOWN[name].keys() - given.keys() <= {*NORM_BOUNDS}
 
 
+@pytest.mark.slow
 def test_forty_random_designs():
     assert_agreed([compare(name, design) for name, design in designs(21, 40)])
 
