@@ -162,7 +162,7 @@ def first_failure(design: Design) -> tuple[int | None, Answer]:
     """
     for k in (0, 1):
         exact = (lambda: ties.memory_at_0(design)) if k == 0 else None
-        answer = settle(design, lambda dps, k=k: memory_slacks(design, dps, k + 1)[k], exact)  # type: ignore[misc]
+        answer = settle(design, lambda dps, k=k: memory_slacks(design, dps, k + 1)[k], exact)
         if answer.truth is None:
             return None, answer
         if not answer.truth:

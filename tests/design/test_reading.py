@@ -151,5 +151,5 @@ def test_nesting_up_to_the_limit_is_parsed() -> None:
 
 def test_many_decimals_and_dotted_keys_are_no_nesting() -> None:
     many = 3 * MAX_NESTING
-    assert len(parse_document("a = [" + "0.5, " * many + "]", "toml", "a.toml")["a"]) == many  # type: ignore[arg-type]
+    assert len(parse_document("a = [" + "0.5, " * many + "]", "toml", "a.toml")["a"]) == many
     assert len(parse_document("".join(f"a{i}.b = 1.5\n" for i in range(many)), "toml", "a.toml")) == many

@@ -91,9 +91,9 @@ def test_a_python_object_that_is_no_number(value: object) -> None:
 
 def test_no_mapping_at_all() -> None:
     with pytest.raises(DesignError, match=r"^design: expected a table, got a list of 1$"):
-        design_from_mapping([1])  # type: ignore[arg-type]
+        design_from_mapping([1])
     with pytest.raises(DesignError, match=r"^design: 1: unknown key"):
-        design_from_mapping({1: 2})  # type: ignore[dict-item]
+        design_from_mapping({1: 2})
 
 
 NEEDS = [

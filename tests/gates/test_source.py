@@ -91,7 +91,7 @@ def test_traces_are_seen(line: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "line", ["reports/paper/", "tests/work/one", "#!/usr/bin/env bash", "x = a /root", "/dev/full"]
+    "line", ["reports/paper/", "tests/homework/one", "#!/usr/bin/env bash", "x = a /root", "/dev/full"]
 )
 def test_other_paths_are_left_alone(line: str) -> None:
     assert not traces(line)

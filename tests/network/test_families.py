@@ -71,5 +71,5 @@ def test_lattices_row_by_row(name: str, rows: int, columns: int) -> None:
 )
 def test_no_such_graph(name: str, size: dict[str, int], reason: str) -> None:
     with pytest.raises(GraphError) as caught:
-        family(name, **size)  # type: ignore[arg-type]
+        family(name, **size)
     assert str(caught.value) == reason
