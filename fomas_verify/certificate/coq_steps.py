@@ -210,9 +210,10 @@ def _control_norm(chapter: Chapter) -> list[Step]:
 
 
 def _trajectory_norm(chapter: Chapter) -> list[Step]:
-    claim, x0 = "trajectory-norm-bound", chapter.loop.design.x0
-    if x0 is None or "norm_bound" not in chapter.known or not chapter.decided(claim, Verdict.PROVED):
+    claim, components = "trajectory-norm-bound", chapter.loop.design.components or ()
+    if len(components) != 1 or "norm_bound" not in chapter.known or not chapter.decided(claim, Verdict.PROVED):
         return []
+    (x0,) = components
     unit = lcm(*(x.denominator for x in x0))
     statement = f"trajectory_norm_bound agents graph alpha gamma h {vector([int(x * unit) for x in x0])} {unit}"
     given, bound = "", "norm_bound"

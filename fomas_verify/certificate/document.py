@@ -44,9 +44,16 @@ def design_object(design: Design) -> dict[str, Any]:
     """The design as the certificate names it: what the statements are about, without name, file or options."""
     graph = design.graph
     parts: dict[str, Any] = {"alpha": design.alpha, "gamma": design.gamma, "mu": design.mu, "h": design.h}
-    parts |= {"agents": graph.agents, "edges": [[*edge] for edge in sorted(graph.edges)], "x0": design.x0}
+    parts |= {"agents": graph.agents, "edges": [[*edge] for edge in sorted(graph.edges)], "x0": _state(design)}
     parts |= {"require": list(design.require)}
     return {key: plain(value) for key, value in parts.items() if value is not None}
+
+
+def _state(design: Design) -> list[Any] | None:
+    """x_0: a number for each agent, or a list where it has several."""
+    if design.x0 is None:
+        return None
+    return [row[0] if len(row) == 1 else [*row] for row in design.x0]
 
 
 def plain(value: Any) -> Any:

@@ -20,14 +20,14 @@ COQ = ""
 
 def decide(loop: Loop) -> Decision:
     """Follow the trajectory until its tail is bounded, as to the truth."""
-    x0 = list(loop.design.x0 or ())
-    if not any(apply(loop.laplacian, x0)):
+    components = loop.design.components or ()
+    if not any(any(apply(loop.laplacian, x)) for x in components):
         return Decision(Verdict.PROVED, {}, "the agents agree already: u_k = 0 for every k")
     limit = None if stability(loop).side is Side.INSIDE else UNSTABLE_SAMPLES
     for bits in SAMPLE_PRECISIONS:
         if (every := symmetric_witness(loop, bits)) is not None:
             return Decision(Verdict.PROVED, every, "it holds for every x_0 (control-norm-bound)")
-        found = follow(loop, x0, bits, limit)
+        found = follow(loop, components, bits, limit)
         if found.above is not None:
             reason = f"norm u_{found.above} / norm u_0 = {decimal(found.largest, 18)}"
             return Decision(

@@ -93,7 +93,7 @@ def differences(report: Report, design: Design) -> list[str]:
         "h": (named.h, design.h),
         "agents": (named.agents, design.graph.agents),
         "edges": (sorted(named.edges), sorted(design.graph.edges)),
-        "x0": (named.x0, None if design.x0 is None else tuple((x,) for x in design.x0)),
+        "x0": (named.x0, design.x0),
         "require": (set(named.require), set(design.require)),
     }
     return [key for key, (theirs, ours) in pairs.items() if theirs != ours]

@@ -2,9 +2,12 @@
 
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import TypeAlias
 
 from fomas_verify.design.errors import DesignError
 from fomas_verify.network import Digraph
+
+State: TypeAlias = tuple[tuple[Fraction, ...], ...]
 
 
 @dataclass(frozen=True)
@@ -23,8 +26,8 @@ class Design:
         Sampling period in seconds, > 0.
     graph : Digraph
         a_ij: agent i hears agent j.
-    x0 : tuple of Fraction or None
-        Initial state, a number for each agent.
+    x0 : tuple of tuples of Fraction or None
+        Initial state: for each agent its n >= 1 numbers, n the same for every agent.
     horizon : int or None
         Last sample k up to which (14) is also checked sample by sample.
     settle_to : Fraction or None
@@ -43,12 +46,17 @@ class Design:
     mu: Fraction | None
     h: Fraction | None
     graph: Digraph
-    x0: tuple[Fraction, ...] | None
+    x0: State | None
     horizon: int | None
     settle_to: Fraction | None
     require: tuple[str, ...]
     source: str
     notes: tuple[str, ...] = ()
+
+    @property
+    def components(self) -> State | None:
+        """x_0 by its components: n rows of N numbers."""
+        return None if self.x0 is None else tuple(zip(*self.x0, strict=True))
 
     def needs(self, key: str, *, command: str) -> None:
         """Make sure that the design gives what a command needs.

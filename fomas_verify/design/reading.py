@@ -14,7 +14,7 @@ from fomas_verify.design.document import Format, format_of, parse_document, read
 from fomas_verify.design.errors import DesignError
 from fomas_verify.design.fields import Place, choice, count, number, positive, sequence, table
 from fomas_verify.design.graph_table import read_graph
-from fomas_verify.design.model import Design
+from fomas_verify.design.model import Design, State
 
 FORMAT: Final = "fomas-design/1"
 MAX_HORIZON: Final = 10**9
@@ -145,18 +145,15 @@ def _is_name(text: str) -> bool:
     return 0 < len(text) <= MAX_NAME and text.isprintable()
 
 
-def _initial_state(value: object, place: Place, agents: int) -> tuple[Fraction, ...]:
+def _initial_state(value: object, place: Place, agents: int) -> State:
     entries = sequence(value, place, f"a list of {agents} numbers, one for each agent", agents)
     dimensions = [len(entry) for entry in entries if isinstance(entry, list | tuple)]
     if not dimensions:
-        return tuple(number(entry, place.item(i)) for i, entry in enumerate(entries))
+        return tuple((number(entry, place.item(i)),) for i, entry in enumerate(entries))
     dimension = max(dimensions[0], 1)
     expectation = f"a list of length {dimension}, the same for every agent"
     rows = [sequence(entry, place.item(i), expectation, dimension) for i, entry in enumerate(entries)]
-    state = [[number(x, place.item(i).item(j)) for j, x in enumerate(row)] for i, row in enumerate(rows)]
-    if dimension > 1:
-        raise place.unsupported(f"agents with {dimension} states are")
-    return tuple(x for (x,) in state)
+    return tuple(tuple(number(x, place.item(i).item(j)) for j, x in enumerate(row)) for i, row in enumerate(rows))
 
 
 def _settle_to(value: object, place: Place) -> Fraction:

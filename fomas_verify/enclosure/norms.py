@@ -84,6 +84,11 @@ def squared_image(a: BallMatrix, vector: Sequence[Fraction]) -> Interval:
     return to_interval(sum((image[i, 0] * image[i, 0] for i in range(image.nrows())), arb(0)))
 
 
+def squared_images(a: BallMatrix, vectors: Sequence[Sequence[Fraction]]) -> Interval:
+    """The sum of the squares of the norms of A v over the vectors v; rigorous."""
+    return sum((squared_image(a, vector) for vector in vectors), Interval.exactly(0))
+
+
 def approx_preimage_of_top(a: BallMatrix, laplacian: Matrix) -> list[Fraction]:
     """A vector x near which ``norm(A L x) / norm(L x)`` is largest, its largest entry 1; approximate.
 

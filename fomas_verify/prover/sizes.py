@@ -27,7 +27,7 @@ class Sizes:
     """What was measured; None where a thing does not exist for the design, or was not reached within the work allowed.
 
     ``peak`` is ``sup_k norm Phi_k`` on 1perp, ``reach`` bounds ``sup_k norm u_k`` for the given x_0 by ``peak gamma
-    norm(L x_0)``, ``overshoot`` bounds ``norm(x(t) - x(t_k))`` inside the sampling interval k, for every k, by ``2 m
+    norm(L x_0)``, ``limit`` is the mean of x_0, a number for each component, ``overshoot`` bounds ``norm(x(t) - x(t_k))`` inside the sampling interval k, for every k, by ``2 m
     reach``.
     """
 
@@ -38,7 +38,7 @@ class Sizes:
     settling_time: Fraction | None = None
     reach: Interval | None = None
     overshoot: Interval | None = None
-    limit: Fraction | None = None
+    limit: tuple[Fraction, ...] | None = None
 
     def entries(self) -> dict[str, dict[str, Any]]:
         """As the certificate writes them."""
@@ -53,8 +53,8 @@ class Sizes:
             found["rate"] = {"kappa": self.rate.kappa, "rho": self.rate.rho}
         if self.reach is not None:
             found["actuator_reach"] = _ends(self.reach.rounded(KEPT_BITS))
-        if self.limit is not None:
-            found["limit"] = _point(self.limit)
+        if self.limit is not None and len(self.limit) == 1:
+            found["limit"] = _point(self.limit[0])
         return found
 
 
@@ -80,16 +80,19 @@ def measure(loop: Loop, *, decided_stable: bool) -> Sizes:
         None if design.h is None else one_step_weight(design.alpha, design.h, BITS),
     )
     overshoot = None if reach is None or weight is None else weight * reach * 2
-    limit = None if design.x0 is None else sum(design.x0, Fraction(0)) / design.graph.agents
+    limit = None
+    if design.components is not None:
+        limit = tuple(sum(x, Fraction(0)) / design.graph.agents for x in design.components)
     return Sizes(peak, rate, design.settle_to, settling, time, reach, overshoot, limit)
 
 
 def actuator_reach(loop: Loop, peak: Peak | None) -> Interval | None:
     """``peak gamma norm(L x_0)``; None without x_0, or where neither gamma nor h is given."""
     design = loop.design
-    if peak is None or design.x0 is None or (design.gamma is None and design.h is None):
+    if peak is None or design.components is None or (design.gamma is None and design.h is None):
         return None
-    error = square_root(Interval.exactly(norm_squared(apply(loop.laplacian, design.x0))), BITS)
+    square = sum((norm_squared(apply(loop.laplacian, x)) for x in design.components), Fraction(0))
+    error = square_root(Interval.exactly(square), BITS)
     gain = Interval.exactly(design.gamma) if design.gamma is not None else None
     if gain is None and design.h is not None:
         gain = loop.mu(BITS) / one_step_weight(design.alpha, design.h, BITS)

@@ -140,7 +140,8 @@ def _sizes(sizes: Sizes) -> str:
     if sizes.overshoot is not None:
         lines.append(f"norm(x(t) - x(t_k)) <= {decimal(sizes.overshoot, 12)} inside each sampling interval")
     if sizes.limit is not None:
-        lines.append(f"every x_i(t) tends to {decimal(Interval.exactly(sizes.limit), 20)}")
+        means = ", ".join(decimal(Interval.exactly(x), 20) for x in sizes.limit)
+        lines.append(f"every x_i(t) tends to {means if len(sizes.limit) == 1 else f'({means})'}")
     return "\n".join(f"  {line}" for line in lines) + "\n"
 
 

@@ -7,12 +7,12 @@ sections 3 and 4.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
 from fomas_verify.enclosure.interval import Interval, round_up, short_dyadic
-from fomas_verify.enclosure.norms import BallMatrix, approx_preimage_of_top, squared_image
+from fomas_verify.enclosure.norms import BallMatrix, approx_preimage_of_top, squared_image, squared_images
 from fomas_verify.enclosure.real import square_root, working_precision
 from fomas_verify.exact import matrix as exact
 from fomas_verify.spectrum.loop import Loop
@@ -65,24 +65,26 @@ class Trajectory:
     examined: int
 
 
-def follow(loop: Loop, x0: list[Fraction], bits: int, limit: int | None = None) -> Trajectory:
-    """Compare ``norm u_k`` with ``norm u_0`` along the trajectory from x_0, where ``L x_0 != 0``. Rigorous."""
-    e0 = exact.apply(loop.laplacian, x0)
-    size = exact.norm_squared(e0)
+def follow(loop: Loop, components: Sequence[Sequence[Fraction]], bits: int, limit: int | None = None) -> Trajectory:
+    """Compare ``norm u_k`` with ``norm u_0`` along the trajectory from x_0, given by its components, where ``L x_0 !=
+    0``. Rigorous.
+    """
+    e0 = [exact.apply(loop.laplacian, x) for x in components]
+    size = sum((exact.norm_squared(e) for e in e0), Fraction(0))
     with working_precision(bits):
         run = Samples(loop, bits)
         test, powers = TailTest(loop.design.alpha, bits), {0: Fraction(1)}
         largest, at = Interval.exactly(0), 0
         for sample in run.all(limit):
             k = sample.k
-            ratio = square_root(squared_image(sample.phi, e0) / size, bits)
+            ratio = square_root(squared_images(sample.phi, e0) / size, bits)
             if ratio.lower > largest.lower:
                 largest, at = ratio, k
             if ratio.lower > 1:
                 return Trajectory(k, None, largest, at, k)
             if k <= EVERY_POWER or k & (k - 1) == 0:
                 powers[k] = run.norm(sample.power, COARSE).upper
-            shrunk = square_root(squared_image(sample.power, e0) / size, bits).upper
+            shrunk = square_root(squared_images(sample.power, e0) / size, bits).upper
             passed = test.add(shrunk if ratio.upper <= 1 else None, Fraction(1))
             if passed and (tail := test.tail(submultiplied(powers, test.streak))) is not None:
                 return Trajectory(None, tail, largest, at, k)

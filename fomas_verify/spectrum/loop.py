@@ -54,6 +54,15 @@ class Loop:
         """Whether the digraph is strongly connected and balanced; exact."""
         return unreachable_pair(self.design.graph) is None and not imbalances(self.design.graph)
 
+    @cached_property
+    def agreement_weights(self) -> list[Fraction] | None:
+        """The w >= 0 with ``w^T L = 0`` and ``sum w_i = 1``; None where no agent reaches every other. Exact."""
+        null = exact.kernel(self.laplacian.transpose())
+        if null.ncols() != 1:
+            return None
+        w = [row[0] for row in exact.to_rows(null)]
+        return [x / sum(w) for x in w]
+
     @cache  # noqa: B019  a loop lives as long as its run
     def mu(self, bits: int) -> Interval:
         """The integrated gain; exact where the design gives it."""

@@ -175,3 +175,19 @@ def test_digits_of_the_values(verify: Verify, digits: int) -> None:
 def test_without_assertions_all_is_the_same(verify: Verify) -> None:
     plain, optimised = (verify("prove", PAPER, "--json", "--horizon", 50, flags=flags) for flags in ((), ("-O",)))
     assert (plain.stdout, plain.returncode) == (optimised.stdout, optimised.returncode)
+
+
+def test_agents_with_several_states(verify: Verify, tmp_path: Path) -> None:
+    """Remark 1: two components of x_0, the first the paper's; a limit for each, norms over both."""
+    rows = "[[4.5, 1], [5, 0], [6, 0], [1.5, 1], [-1, 2]]"
+    text = Path(PAPER).read_text().replace("[4.5, 5, 6, 1.5, -1]", rows)
+    assert rows in text
+    design, certificate = write(tmp_path, text), tmp_path / "certificate.json"
+    found = verify("prove", design, "-o", certificate)
+    assert (found.returncode, "every x_i(t) tends to (3.2, 0.8)" in found.stdout) == (0, True)
+    document = json.loads(certificate.read_text())
+    assert document["design"]["x0"][:2] == [["9/2", "1"], ["5", "0"]]
+    assert "limit" not in document["values"]
+    assert verify("check", certificate, "--design", design).returncode == 0
+    other = write(tmp_path, text.replace("[5, 0]", "[5, 1]"))
+    assert verify("check", certificate, "--design", other).returncode == 1

@@ -32,7 +32,7 @@ def test_the_paper_design() -> None:
     paper = parse_design(PAPER, "toml", "examples/paper.toml")
     assert (paper.name, paper.source, paper.horizon, paper.notes) == ("paper", "examples/paper.toml", 1000, ())
     assert (paper.alpha, paper.gamma, paper.h, paper.mu) == (Fraction(9, 10), Fraction(3, 20), Fraction(17, 20), None)
-    assert paper.x0 == (Fraction(9, 2), 5, 6, Fraction(3, 2), -1)
+    assert paper.components == ((Fraction(9, 2), 5, 6, Fraction(3, 2), -1),)
     assert paper.graph.agents == 5
     assert {(target, source) for source, target, _ in paper.graph.edges} == HEARS
     assert {weight for *_, weight in paper.graph.edges} == {1}
@@ -75,7 +75,7 @@ def test_numbers_are_read_exactly(literal: str, mu: Fraction) -> None:
 def test_python_floats_are_shortest_decimals_and_noted() -> None:
     noted = design(mu=0.1, x0=[0.1, 1, "0.3"])
     assert noted.mu == Fraction(1, 10)
-    assert noted.x0 == (Fraction(1, 10), 1, Fraction(3, 10))
+    assert noted.x0 == ((Fraction(1, 10),), (1,), (Fraction(3, 10),))
     assert noted.notes == ("mu, x0: binary floats are read as their shortest decimals (0.1 is 1/10)",)
     assert design(mu=Fraction(1, 3)).mu == Fraction(1, 3)
     weighted = design_from_mapping({"alpha": 0.5, "graph": {"adjacency": [[0, 0.25], [1, 0]]}})
@@ -96,7 +96,8 @@ def test_optional_keys_and_their_defaults() -> None:
     assert (bare.gamma, bare.mu, bare.h, bare.x0, bare.horizon, bare.require) == (None,) * 5 + (DEFAULT_REQUIRE,)
     assert design(gate={}).require == DEFAULT_REQUIRE
     assert design(gate={"require": ["beta-contraction"]}).require == ("beta-contraction",)
-    assert design(x0=[[1], [2], [3]]).x0 == (1, 2, 3)
+    assert design(x0=[[1], [2], [3]]).x0 == design(x0=[1, 2, 3]).x0 == ((1,), (2,), (3,))
+    assert design(x0=[[1, 0], [2, "1/2"], [3, 7]]).components == ((1, 2, 3), (0, Fraction(1, 2), 7))
     assert design(format="fomas-design/1", horizon=0).horizon == 0
     assert set(DEFAULT_REQUIRE) < set(CLAIM_IDS)
     assert len(set(CLAIM_IDS)) == 10
