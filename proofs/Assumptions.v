@@ -11,15 +11,21 @@ From Fomas Require Import Results.BalancedGraph.
 From Fomas Require Import Results.Perron.
 From Fomas Require Import Results.Consensus.
 From Fomas Require Import Results.NormBound.
+From Fomas Require Import Results.Remark1.
 From Fomas Require Import Results.Soundness.
 From Fomas Require Import Results.Equivalence.
 From Fomas Require Import Results.Regions.
+From Fomas Require Import Results.Coordinates.
+From Fomas Require Import Results.Stability.
+From Fomas Require Import Results.Refutation.
 From Fomas Require Import Results.Step.
 From Fomas Require Import Instances.Gamma19.
 From Fomas Require Import Instances.PaperExample.
+From Fomas Require Import Instances.PaperChain.
 From Fomas Require Import Instances.PairGraph.
 From Fomas Require Import Instances.Examples.
 From Fomas Require Import Instances.MoreExamples.
+From Fomas Require Import Instances.TestExamples.
 
 Goal True. idtac "==" "lemma2". Abort.
 Print Assumptions lemma2.
@@ -45,6 +51,10 @@ Goal True. idtac "==" "closed_loop_exists". Abort.
 Print Assumptions closed_loop_exists.
 Goal True. idtac "==" "eqxik_3". Abort.
 Print Assumptions eqxik_3.
+Goal True. idtac "==" "error_step". Abort.
+Print Assumptions error_step.
+Goal True. idtac "==" "equ1". Abort.
+Print Assumptions equ1.
 Goal True. idtac "==" "control_resolvent". Abort.
 Print Assumptions control_resolvent.
 Goal True. idtac "==" "phi_recursion". Abort.
@@ -75,8 +85,14 @@ Goal True. idtac "==" "consensus_between_samples". Abort.
 Print Assumptions consensus_between_samples.
 Goal True. idtac "==" "overshoot". Abort.
 Print Assumptions overshoot.
+Goal True. idtac "==" "theorem1_from_gain_bound". Abort.
+Print Assumptions theorem1_from_gain_bound.
 Goal True. idtac "==" "theorem1_as_stated". Abort.
 Print Assumptions theorem1_as_stated.
+Goal True. idtac "==" "remark1". Abort.
+Print Assumptions remark1.
+Goal True. idtac "==" "remark1_consensus". Abort.
+Print Assumptions remark1_consensus.
 Goal True. idtac "==" "control_vanishes_converse". Abort.
 Print Assumptions control_vanishes_converse.
 Goal True. idtac "==" "peak_lemma". Abort.
@@ -87,6 +103,8 @@ Goal True. idtac "==" "peak_attained". Abort.
 Print Assumptions peak_attained.
 Goal True. idtac "==" "eqL3_from_powers". Abort.
 Print Assumptions eqL3_from_powers.
+Goal True. idtac "==" "control_peak". Abort.
+Print Assumptions control_peak.
 Goal True. idtac "==" "theorem1_repaired". Abort.
 Print Assumptions theorem1_repaired.
 Goal True. idtac "==" "theorem1_repaired_closed_form". Abort.
@@ -95,8 +113,6 @@ Goal True. idtac "==" "eqL3_characterised". Abort.
 Print Assumptions eqL3_characterised.
 Goal True. idtac "==" "eqL3_needs_eqT2". Abort.
 Print Assumptions eqL3_needs_eqT2.
-Goal True. idtac "==" "remark1". Abort.
-Print Assumptions remark1.
 Goal True. idtac "==" "ldlt". Abort.
 Print Assumptions ldlt.
 Goal True. idtac "==" "residual_factor". Abort.
@@ -133,6 +149,22 @@ Goal True. idtac "==" "consensus_interval". Abort.
 Print Assumptions consensus_interval.
 Goal True. idtac "==" "lambda2_psd". Abort.
 Print Assumptions lambda2_psd.
+Goal True. idtac "==" "basis". Abort.
+Print Assumptions basis.
+Goal True. idtac "==" "definite_margin". Abort.
+Print Assumptions definite_margin.
+Goal True. idtac "==" "contraction_test". Abort.
+Print Assumptions contraction_test.
+Goal True. idtac "==" "lambda2_test". Abort.
+Print Assumptions lambda2_test.
+Goal True. idtac "==" "differences_evolve". Abort.
+Print Assumptions differences_evolve.
+Goal True. idtac "==" "lyapunov_test". Abort.
+Print Assumptions lyapunov_test.
+Goal True. idtac "==" "persistence_test". Abort.
+Print Assumptions persistence_test.
+Goal True. idtac "==" "trace_test". Abort.
+Print Assumptions trace_test.
 Goal True. idtac "==" "step_decided". Abort.
 Print Assumptions step_decided.
 Goal True. idtac "==" "step_fails". Abort.
@@ -149,6 +181,8 @@ Goal True. idtac "==" "paper_hypotheses". Abort.
 Print Assumptions paper_hypotheses.
 Goal True. idtac "==" "paper_step_false". Abort.
 Print Assumptions paper_step_false.
+Goal True. idtac "==" "paper_chain_false". Abort.
+Print Assumptions paper_chain_false.
 Goal True. idtac "==" "paper_step_never". Abort.
 Print Assumptions paper_step_never.
 Goal True. idtac "==" "paper_eqL3_false". Abort.
@@ -181,7 +215,33 @@ Goal True. idtac "==" "peak_inhabited". Abort.
 Print Assumptions peak_inhabited.
 Goal True. idtac "==" "peak_fails_without_decay". Abort.
 Print Assumptions peak_fails_without_decay.
+Goal True. idtac "==" "peak_above_one_inhabited". Abort.
+Print Assumptions peak_above_one_inhabited.
 Goal True. idtac "==" "lyapunov_inhabited". Abort.
 Print Assumptions lyapunov_inhabited.
 Goal True. idtac "==" "residual_factor_inhabited". Abort.
 Print Assumptions residual_factor_inhabited.
+Goal True. idtac "==" "signals_unbounded_beyond_gain_bound". Abort.
+Print Assumptions signals_unbounded_beyond_gain_bound.
+Goal True. idtac "==" "remark1_inhabited". Abort.
+Print Assumptions remark1_inhabited.
+Goal True. idtac "==" "remark1_fails_at_gain_limit". Abort.
+Print Assumptions remark1_fails_at_gain_limit.
+Goal True. idtac "==" "basis_fails_off_1perp". Abort.
+Print Assumptions basis_fails_off_1perp.
+Goal True. idtac "==" "margin_needs_definite". Abort.
+Print Assumptions margin_needs_definite.
+Goal True. idtac "==" "contraction_test_inhabited". Abort.
+Print Assumptions contraction_test_inhabited.
+Goal True. idtac "==" "lambda2_test_inhabited". Abort.
+Print Assumptions lambda2_test_inhabited.
+Goal True. idtac "==" "lyapunov_test_inhabited". Abort.
+Print Assumptions lyapunov_test_inhabited.
+Goal True. idtac "==" "lyapunov_test_needs_strictness". Abort.
+Print Assumptions lyapunov_test_needs_strictness.
+Goal True. idtac "==" "persistence_test_inhabited". Abort.
+Print Assumptions persistence_test_inhabited.
+Goal True. idtac "==" "persistence_test_needs_nonzero". Abort.
+Print Assumptions persistence_test_needs_nonzero.
+Goal True. idtac "==" "trace_test_inhabited". Abort.
+Print Assumptions trace_test_inhabited.

@@ -23,6 +23,10 @@ MOST_AGENTS = 12
 PRECISIONS = ((20, 40), (20, 72), (40, 140), (80, 280))
 """Significant digits of mu and bits of lambda2, tried in this order until every claim is restated; the first two need
 no hypothesis."""
+KEYWORDS = re.compile(
+    "Axiom|CoFixpoint|Definition|Export|Fixpoint|Hypothesis|Import|Parameter|S?Prop|Set|Theorem|Type|Variable"
+)
+"""Words with a capital that Coq 8.16 does not take for the name of a module in ``Require``."""
 HYPOTHESIS = (
     "the enclosure of Gamma(alpha + 1) is the only hypothesis: the margin is finer than Coq encloses Gamma here"
 )
@@ -87,9 +91,12 @@ def coq_file(loop: Loop, decisions: Mapping[str, Decision]) -> CoqFile:
 
 
 def module_name(name: str) -> str:
-    """The design's name as the name of a Coq module: letters, digits and underscores, a capital first."""
+    """The design's name as the name of a Coq module: letters, digits and underscores, a capital first, no keyword."""
     plain = re.sub(r"[^A-Za-z0-9]+", "_", name).strip("_")
-    return plain[:1].upper() + plain[1:] if plain[:1].isalpha() else f"Design_{plain}".rstrip("_")
+    capital = plain[:1].upper() + plain[1:]
+    if capital[:1].isalpha() and not KEYWORDS.fullmatch(capital):
+        return capital
+    return f"Design_{capital}".rstrip("_")
 
 
 def _omitted(decisions: Mapping[str, Decision], chosen: Sequence[Step]) -> tuple[str, ...]:

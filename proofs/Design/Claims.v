@@ -11,16 +11,6 @@ Open Scope R_scope.
 
 (** * The statements *)
 
-(** The eigenvalue 1 of P is simple, and every other has modulus below 1. *)
-Definition perron_spectrum (N : nat) (A : mat) (mu : R) : Prop :=
-  let P := mv N (perron N A mu) in
-  (forall i, (i < N)%nat -> P ones i = 1) /\
-  (forall x, (forall i, (i < N)%nat -> P (P x) i - 2 * P x i + x i = 0) ->
-     forall i, (i < N)%nat -> x i = x 0%nat) /\
-  (forall a b x y, 0 < dot N x x + dot N y y ->
-     (forall i, (i < N)%nat -> P x i = a * x i - b * y i) ->
-     (forall i, (i < N)%nat -> P y i = b * x i + a * y i) ->
-     ~ (a = 1 /\ b = 0) -> a ^ 2 + b ^ 2 < 1).
 (** The controls are bounded by a multiple of the first, and vanish. *)
 Definition control_bounded (N : nat) (A : mat) (alpha gamma h : R) : Prop :=
   exists B, forall x0 x u, closed_loop N A alpha gamma h x0 x u ->

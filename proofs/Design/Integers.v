@@ -1,6 +1,6 @@
 (** Integer matrices, decided by computation, and what they say about real ones. *)
 From Coq Require Import Reals ZArith List Bool Lia Lra.
-From Fomas Require Import Model.Vectors Statements Facts.Sums Facts.Vectors Results.Soundness.
+From Fomas Require Import Model.Vectors Statements Facts.Sums Facts.Vectors Facts.Forms Results.Soundness.
 Open Scope R_scope.
 
 (** Proves an equality of booleans by computing it. *)
@@ -46,20 +46,6 @@ Definition nonnegative (N : nat) (M F : zmat) (K eps : Z) : bool :=
      (zsum N (fun j => Z.abs (entry E i j)) <=? eps)%Z
      && below N (fun j => (entry E i j =? entry E j i)%Z)))%bool.
 
-Lemma form_linear N Q1 Q2 a b x :
-  form N (fun i j => a * Q1 i j + b * Q2 i j) x = a * form N Q1 x + b * form N Q2 x.
-Proof.
-  rewrite !form_double_sum, <- !sum_scal, <- sum_plus. apply sum_ext. intros i _.
-  rewrite <- !sum_scal, <- sum_plus. apply sum_ext. intros j _. ring.
-Qed.
-
-Lemma form_mat_ext N Q1 Q2 x :
-  (forall i j, (i < N)%nat -> (j < N)%nat -> Q1 i j = Q2 i j) -> form N Q1 x = form N Q2 x.
-Proof.
-  intros H. rewrite !form_double_sum. apply sum_ext. intros i Hi. apply sum_ext. intros j Hj.
-  rewrite H by assumption. reflexivity.
-Qed.
-
 Lemma nonnegative_sound N M F K eps : nonnegative N M F K eps = true ->
   forall x, 0 <= form N (real M) x.
 Proof.
@@ -92,33 +78,6 @@ Definition stein (N : nat) (Q B : zmat) (a b c w : Z) : zmat :=
   table N (fun i j =>
     a * entry Q i j - b * zsum N (fun k => entry B k i * entry QB k j)
     - (if Nat.eqb i j then c else 0) + w)%Z.
-
-Lemma form_congruence N Q B x :
-  form N (fun i j => \sum_(k < N) (B k i * \sum_(l < N) (Q k l * B l j))) x
-  = form N Q (mv N B x).
-Proof.
-  unfold form at 2, dot.
-  transitivity (\sum_(k < N) \sum_(i < N) ((B k i * x i) * mv N Q (mv N B x) k)).
-  2: { apply sum_ext. intros k _. apply sum_scal_r. }
-  rewrite sum_swap. unfold form, dot. apply sum_ext. intros i _.
-  rewrite (sum_ext N (fun k => B k i * x i * mv N Q (mv N B x) k)
-             (fun k => x i * (B k i * mv N Q (mv N B x) k))) by (intros; ring).
-  rewrite sum_scal. f_equal. unfold mv at 1.
-  rewrite (sum_ext N _ (fun j => \sum_(k < N) (B k i * (\sum_(l < N) (Q k l * B l j)) * x j)))
-    by (intros; symmetry; apply sum_scal_r).
-  rewrite sum_swap. apply sum_ext. intros k _.
-  rewrite (sum_ext N _ (fun j => B k i * ((\sum_(l < N) (Q k l * B l j)) * x j)))
-    by (intros; ring).
-  rewrite sum_scal. f_equal. unfold mv.
-  rewrite (sum_ext N (fun l => Q k l * _)
-             (fun l => \sum_(j < N) (Q k l * (B l j * x j))))
-    by (intros; symmetry; apply sum_scal).
-  rewrite sum_swap. apply sum_ext. intros j _. rewrite <- sum_scal_r. apply sum_ext.
-  intros; ring.
-Qed.
-
-Lemma form_identity N x : form N id_mat x = dot N x x.
-Proof. unfold form. apply dot_ext; [auto|]. intros i Hi. unfold mv. apply id_mat_sum, Hi. Qed.
 
 Lemma form_all_ones N x : form N (fun _ _ => 1) x = sum_lt N x ^ 2.
 Proof.

@@ -1,6 +1,6 @@
 (** A graph given by integer weights over a common denominator: what computation decides of it. *)
 From Coq Require Import Reals ZArith List Bool Lia Lra.
-From Fomas Require Import Model.Vectors Model.Graph Model.Loop Facts.Sums Facts.Vectors Facts.Graph.
+From Fomas Require Import Model.Vectors Model.Graph Model.Loop Facts.Sums Facts.Vectors Facts.Forms Facts.Graph.
 From Fomas Require Import Design.Integers.
 Open Scope R_scope.
 

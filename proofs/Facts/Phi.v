@@ -155,3 +155,22 @@ Proof.
   - replace (Finite 0) with (Rbar_mult c 0) by (simpl; f_equal; ring).
     apply is_lim_seq_scal_l, L.
 Qed.
+
+Lemma sum_vanishes n (F : nat -> nat -> R) : (forall i, (i < n)%nat -> is_lim_seq (F i) 0) ->
+  is_lim_seq (fun k => \sum_(i < n) F i k) 0.
+Proof.
+  induction n as [|n IH]; intros H; [apply is_lim_seq_const|].
+  replace (Finite 0) with (Finite (0 + 0)) by (f_equal; ring).
+  apply (is_lim_seq_plus' (fun k => \sum_(i < n) F i k) (F n)); auto.
+Qed.
+
+(** The norm of a vector whose entries vanish, vanishes. *)
+Lemma norm_vanishes N (y : nat -> vec) :
+  (forall i, (i < N)%nat -> is_lim_seq (fun k => y k i) 0) -> is_lim_seq (fun k => norm N (y k)) 0.
+Proof.
+  intros H. apply dominated_vanishes with (b := fun k => \sum_(i < N) Rabs (y k i)) (c := 1).
+  - intros k. rewrite Rabs_right by apply Rle_ge, norm_nonneg. rewrite Rmult_1_l.
+    apply norm_le_sum.
+  - apply (sum_vanishes N (fun i k => Rabs (y k i))). intros i Hi.
+    apply (is_lim_seq_abs_0 (fun k => y k i)). apply H, Hi.
+Qed.

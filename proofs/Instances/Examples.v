@@ -40,9 +40,12 @@ Proof.
   - rewrite E, pair_degree. exact B.
 Qed.
 
-(** (15) and eqL3 hold and (14) fails, for every alpha. *)
+(** Every hypothesis of eqT2_not_necessary and (15) hold at some gain: eqL3 holds there and (14)
+    fails, for every alpha. *)
 Theorem eqT2_not_necessary_inhabited : forall alpha, 0 < alpha < 1 -> exists gamma h,
-  design alpha gamma h /\ gain_bound 2 pair_graph (mu_of alpha gamma h) /\
+  design alpha gamma h /\ / 2 <= mu_of alpha gamma h <= 1 /\
+  1 - mu_of alpha gamma h * 2 < - sqrt (Rpower 3 alpha - Rpower 2 alpha) /\
+  gain_bound 2 pair_graph (mu_of alpha gamma h) /\
   control_norm_bound 2 pair_graph alpha gamma h /\
   ~ memory_inequality alpha (1 - mu_of alpha gamma h * 2).
 Proof.
@@ -54,7 +57,8 @@ Proof.
   exists ((3 + q) / 4 * Gamma (alpha + 1)), 1.
   assert (T := eqT2_not_necessary alpha _ 1 D). cbv zeta in T. rewrite E in *.
   destruct (T ltac:(lra)) as [_ [_ [_ [B F]]]].
-  split; [exact D|]. split; [unfold gain_bound; rewrite pair_degree; lra|].
+  split; [exact D|]. split; [lra|]. split; [fold q; lra|].
+  split; [unfold gain_bound; rewrite pair_degree; lra|].
   split; [exact B|]. apply F. fold q. lra.
 Qed.
 
@@ -65,7 +69,24 @@ Proof.
   rewrite (mv_ext N M _ x) by exact IH. apply H, Hi.
 Qed.
 
-(** Consensus fails at the end mu = 1/D of (15): a pair only swaps its states. *)
+(** At mu = 1 a pair only swaps its states. *)
+Lemma pair_swaps alpha gamma h x0 x u : design alpha gamma h -> mu_of alpha gamma h = 1 ->
+  closed_loop 2 pair_graph alpha gamma h x0 x u -> x0 0%nat = 1 -> x0 1%nat = -1 ->
+  ~ is_lim_seq (fun k => x (INR k * h) 0%nat) (mean 2 x0).
+Proof.
+  intros D E HL X0 X1 L.
+  assert (Z : zero_sum 2 x0) by (unfold zero_sum; simpl; lra).
+  apply is_lim_seq_spec in L. destruct (L (mkposreal (/ 2) ltac:(lra))) as [n Hn].
+  specialize (Hn n (le_n n)). simpl pos in Hn.
+  rewrite (loop_sample 2 pair_graph alpha gamma h x0 D x u HL n 0 ltac:(lia)), E in Hn.
+  rewrite pair_iter, X0 in Hn by (assumption || lia). unfold mean in Hn.
+  unfold zero_sum in Z. rewrite Z in Hn.
+  replace ((1 - 1 * 2) ^ n * 1 - 0 / INR 2) with ((-1) ^ n) in Hn
+    by (replace (1 - 1 * 2) with (-1) by ring; unfold Rdiv; ring).
+  rewrite pow_1_abs in Hn. lra.
+Qed.
+
+(** Consensus fails at the end mu = 1/D of (15). *)
 Theorem consensus_fails_at_gain_limit : forall alpha, 0 < alpha < 1 -> exists gamma h x0 x u,
   design alpha gamma h /\ mu_of alpha gamma h * degree_max 2 pair_graph = 1 /\
   closed_loop 2 pair_graph alpha gamma h x0 x u /\
@@ -73,22 +94,10 @@ Theorem consensus_fails_at_gain_limit : forall alpha, 0 < alpha < 1 -> exists ga
 Proof.
   intros alpha Ha. destruct (design_for_mu alpha 1 Ha ltac:(lra)) as [D E].
   set (x0 := of_list (1 :: -1 :: nil)).
-  assert (Z : zero_sum 2 x0) by (unfold zero_sum, x0, of_list; simpl; lra).
   assert (HL := exact_loop 2 pair_graph alpha _ 1 x0 D).
   eexists. exists 1, x0. eexists. eexists.
   split; [exact D|]. split; [rewrite E, pair_degree; ring|]. split; [exact HL|].
-  intros L. apply is_lim_seq_spec in L. destruct (L (mkposreal (/ 2) ltac:(lra))) as [n Hn].
-  specialize (Hn n (le_n n)). simpl pos in Hn.
-  rewrite (loop_sample 2 pair_graph alpha _ 1 x0 D _ _ HL n 0 ltac:(lia)), E in Hn.
-  assert (P : forall k i, (i < 2)%nat ->
-            iter k (mv 2 (perron 2 pair_graph 1)) x0 i = (-1) ^ k * x0 i).
-  { induction k as [|k IH]; intros i Hi; simpl; [ring|].
-    rewrite (mv_ext 2 _ _ (fun i => (-1) ^ k * x0 i)) by exact IH.
-    rewrite mv_scal, pair_perron by assumption. ring. }
-  rewrite P in Hn by lia. unfold mean in Hn. unfold zero_sum in Z. rewrite Z in Hn.
-  unfold x0, of_list in Hn. simpl in Hn.
-  replace ((-1) ^ n * 1 - 0 / (1 + 1)) with ((-1) ^ n) in Hn by field.
-  rewrite pow_1_abs in Hn. lra.
+  apply (pair_swaps alpha _ 1 x0 _ _ D E HL); reflexivity.
 Qed.
 
 (** Consensus fails without strong connectivity: two pairs that do not hear each other. *)

@@ -48,14 +48,20 @@ Proof.
   below2 i; unfold pair_graph; cbn; rewrite E; ring.
 Qed.
 
+Lemma pair_iter mu n e i : zero_sum 2 e -> (i < 2)%nat ->
+  iter n (mv 2 (perron 2 pair_graph mu)) e i = (1 - mu * 2) ^ n * e i.
+Proof.
+  intros He. revert i. induction n as [|n IH]; intros i Hi; simpl; [ring|].
+  rewrite (mv_ext 2 _ _ (fun i => (1 - mu * 2) ^ n * e i)) by exact IH.
+  rewrite mv_scal, pair_perron by assumption. ring.
+Qed.
+
 Lemma pair_phi alpha mu k e i : zero_sum 2 e -> (i < 2)%nat ->
   Phi alpha 2 (perron 2 pair_graph mu) k e i
   = (\sum_(j < S k) (rk alpha (k - j) * (1 - mu * 2) ^ j)) * e i.
 Proof.
   intros He Hi. unfold Phi. rewrite <- sum_scal_r. apply sum_ext. intros j _.
-  rewrite Rmult_assoc. f_equal. revert i Hi. induction j as [|j IH]; intros i Hi; simpl; [ring|].
-  rewrite (mv_ext 2 _ _ (fun i => (1 - mu * 2) ^ j * e i)) by exact IH.
-  rewrite mv_scal, pair_perron by assumption. ring.
+  rewrite Rmult_assoc. f_equal. apply pair_iter; assumption.
 Qed.
 
 (** With beta = -b, 0 <= b <= 1, every phi_k lies in [r_k - b, 1]. *)

@@ -47,3 +47,10 @@ Definition gain_bound (N : nat) (A : mat) (mu : R) : Prop := 0 < mu < 1 / degree
 Definition control_norm_bound (N : nat) (A : mat) (alpha gamma h : R) : Prop :=
   forall x0 x u, closed_loop N A alpha gamma h x0 x u ->
   forall k, norm N (u k) <= norm N (u 0%nat).
+
+(** Agents with states in R^n (Remark 1): coordinate d of agent i is entry i n + d, and the graph
+    is A (x) I_n, so that the loop is the paper's with L (x) I_n in place of L. *)
+Definition kron_id (n : nat) (A : mat) : mat := fun p q =>
+  if Nat.eqb (p mod n) (q mod n) then A (p / n)%nat (q / n)%nat else 0.
+Definition coordinate (n d : nat) (x : vec) : vec := fun i => x (i * n + d)%nat.
+Definition agent (n i : nat) (x : vec) : vec := fun d => x (i * n + d)%nat.

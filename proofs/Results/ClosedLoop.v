@@ -22,6 +22,26 @@ Proof.
   - rewrite E, perron_entry, consensus_term by exact Hi. unfold xk, mu. ring.
 Qed.
 
+Theorem error_step : error_step_statement.
+Proof.
+  intros N A alpha gamma h x0 x u D H k i Hi.
+  rewrite (loop_error N A alpha gamma h x0 D x u H (S k) i Hi). simpl. symmetry.
+  apply mv_ext. intros j Hj. apply (loop_error N A alpha gamma h x0 D x u H k j Hj).
+Qed.
+
+Theorem equ1 : equ1_statement.
+Proof.
+  intros N A alpha gamma h x0 x u D H.
+  assert (E : forall k i, (i < N)%nat -> u k i = - gamma * error N A h x k i
+            + \sum_(l < k) (Rabs (fk alpha (S l)) * u (k - S l)%nat i)).
+  { intros k i Hi. assert (C := controller_law N A alpha gamma h x u (proj2 H) k i Hi).
+    rewrite (sum_ext k (fun l => Rabs (fk alpha (S l)) * u (k - S l)%nat i)
+               (fun l => - (fk alpha (S l) * u (k - S l)%nat i))).
+    - rewrite sum_opp. lra.
+    - intros l _. rewrite Rabs_left by (apply fk_neg, D). ring. }
+  split; [|exact E]. intros i Hi. rewrite (E 1%nat i Hi). simpl. ring.
+Qed.
+
 Theorem control_resolvent : control_resolvent_statement.
 Proof.
   intros N A alpha gamma h x0 x u D H k i Hi P.

@@ -185,21 +185,26 @@ Proof.
   apply (overshoot_norm N alpha h x0 u x Ha Hh Hx M k s Hs HM).
 Qed.
 
-Theorem theorem1_as_stated : theorem1_as_stated_statement.
+Theorem theorem1_from_gain_bound : theorem1_from_gain_bound_statement.
 Proof.
-  intros N A alpha gamma h l HN H1 D Hl mu HG _ x0 x u H.
+  intros N A alpha gamma h HN H1 D HG x0 x u H.
   destruct (gain_bound_decay N A _ H1 HG) as [s [Hs Hd]].
   assert (bal : balanced N A) by apply H1.
-  assert (cons : forall i, (i < N)%nat -> is_lim (fun t => x t i) p_infty (mean N x0)).
-  { intros i Hi. apply (state_consensus N A alpha gamma h 1 s ltac:(lia) bal D Rle_0_1 Hs Hd
-                          x0 x u H i Hi). }
-  split; [|split].
+  assert (cons := consensus_between_samples N A alpha gamma h HN H1 D HG x0 x u H).
+  split; [|split; [|split; [|exact cons]]].
   - apply (signals_bounded N A alpha gamma h 1 s ltac:(lia) bal D Rle_0_1 Hs Hd x0 x u H).
+  - apply (control_vanishes N A alpha gamma h 1 s bal D Rle_0_1 Hs Hd x0 x u H).
   - intros i j Hi Hj.
     replace (Finite 0) with (Rbar_abs (Finite (mean N x0 - mean N x0)))
       by (simpl; f_equal; rewrite Rminus_eq_0; apply Rabs_R0).
     apply is_lim_Rabs. apply is_lim_minus'; auto.
-  - exact cons.
+Qed.
+
+Theorem theorem1_as_stated : theorem1_as_stated_statement.
+Proof.
+  intros N A alpha gamma h l HN H1 D Hl mu HG _ x0 x u H.
+  destruct (theorem1_from_gain_bound N A alpha gamma h HN H1 D HG x0 x u H) as [B [_ C]].
+  split; assumption.
 Qed.
 
 Theorem control_vanishes_converse : control_vanishes_converse_statement.

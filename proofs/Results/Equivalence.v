@@ -2,7 +2,7 @@
 From Coq Require Import Reals Arith Lia Lra.
 From Coquelicot Require Import Coquelicot.
 From Fomas Require Import Model.Vectors Model.Kernel Model.Gamma Model.Graph Model.Loop Statements.
-From Fomas Require Import Facts.Sums Facts.Vectors Facts.Graph Facts.Contraction Facts.Loop.
+From Fomas Require Import Facts.Sums Facts.Vectors Facts.Graph Facts.Lambda2 Facts.Contraction Facts.Loop.
 From Fomas Require Import Facts.Phi Results.Perron Results.Consensus Results.Soundness.
 Open Scope R_scope.
 
@@ -16,17 +16,6 @@ Qed.
 
 Lemma iter_S (T : vec -> vec) k x : iter (S k) T x = iter k T (T x).
 Proof. induction k as [|k IH]; [reflexivity|]. simpl in *. rewrite IH. reflexivity. Qed.
-
-(** The norm of a vector whose entries vanish, vanishes. *)
-Lemma norm_vanishes N (y : nat -> vec) :
-  (forall i, (i < N)%nat -> is_lim_seq (fun k => y k i) 0) -> is_lim_seq (fun k => norm N (y k)) 0.
-Proof.
-  intros H. apply dominated_vanishes with (b := fun k => \sum_(i < N) Rabs (y k i)) (c := 1).
-  - intros k. rewrite Rabs_right by apply Rle_ge, norm_nonneg. rewrite Rmult_1_l.
-    apply norm_le_sum.
-  - apply (sum_vanishes N (fun i k => Rabs (y k i))). intros i Hi.
-    apply (is_lim_seq_abs_0 (fun k => y k i)). apply H, Hi.
-Qed.
 
 (** The vectors e_j - e_{N-1} span 1perp. *)
 Definition difference (n j : nat) : vec := fun i => id_mat j i - id_mat n i.
@@ -57,43 +46,50 @@ Proof.
       destruct (Nat.eqb_spec n i); [lia|ring].
 Qed.
 
-Theorem decay_from_vanishing : decay_from_vanishing_statement.
+(** Powers that vanish on a subspace Z with spanning vectors b_j decay geometrically there. *)
+Lemma geometric_decay N M (Z : vec -> Prop) n (b : nat -> vec) : (n <= N)%nat ->
+  (forall j, (j < n)%nat -> Z (b j)) -> (forall x, Z x -> Z (mv N M x)) ->
+  (forall x, Z x -> forall i, (i < N)%nat -> x i = \sum_(j < n) (x j * b j i)) ->
+  (forall j, (j < n)%nat -> forall i, (i < N)%nat ->
+     is_lim_seq (fun k => iter k (mv N M) (b j) i) 0) ->
+  exists C rho, 0 <= C /\ 0 <= rho < 1 /\
+  forall k x, Z x -> norm N (iter k (mv N M) x) <= C * rho ^ k * norm N x.
 Proof.
-  intros N A mu HN bal V. destruct N as [|n]; [lia|]. set (P := mv (S n) (perron (S n) A mu)).
-  set (B := fun k => \sum_(j < n) norm (S n) (iter k P (difference n j))).
-  assert (bound : forall k, bounded_on_1perp (S n) (iter k P) (B k)).
+  intros HN Zb ZM span V. set (P := mv N M) in *.
+  set (B := fun k => \sum_(j < n) norm N (iter k P (b j))).
+  assert (bound : forall k x, Z x -> norm N (iter k P x) <= B k * norm N x).
   { intros k x Hx. unfold P.
-    rewrite (norm_ext (S n) _ (fun i => \sum_(j < n) (x j * iter k P (difference n j) i))).
+    rewrite (norm_ext N _ (fun i => \sum_(j < n) (x j * iter k P (b j) i))).
     - eapply Rle_trans; [apply norm_combination|]. unfold B. rewrite <- sum_scal_r.
       apply sum_le. intros j Hj. rewrite Rmult_comm.
       apply Rmult_le_compat_l; [apply norm_nonneg|apply entry_le_norm; lia].
     - intros i Hi.
-      rewrite (iter_mv_ext (S n) _ k x (fun i => \sum_(j < n) (x j * difference n j i)))
-        by (try exact Hi; intros; apply difference_span; assumption).
-      rewrite (iter_sum (S n) _ k n (fun j i => x j * difference n j i)) by exact Hi.
+      rewrite (iter_mv_ext N _ k x (fun i => \sum_(j < n) (x j * b j i)))
+        by (try exact Hi; apply span, Hx).
+      rewrite (iter_sum N _ k n (fun j i => x j * b j i)) by exact Hi.
       apply sum_ext. intros j _. apply iter_scal, Hi. }
   assert (L : is_lim_seq B 0).
-  { apply (sum_vanishes n (fun j k => norm (S n) (iter k P (difference n j)))). intros j Hj.
-    apply norm_vanishes. apply V, difference_zero_sum, Hj. }
+  { apply (sum_vanishes n (fun j k => norm N (iter k P (b j)))). intros j Hj.
+    apply norm_vanishes. apply V, Hj. }
   apply is_lim_seq_spec in L. destruct (L (mkposreal (/ 2) ltac:(lra))) as [m0 Hm]. simpl in Hm.
   set (m := S m0). assert (Hm1 : B m <= / 2).
   { specialize (Hm m ltac:(unfold m; lia)). rewrite Rminus_0_r in Hm.
     apply Rabs_def2 in Hm. lra. }
-  destruct (contracts_exists (S n) A mu) as [s0 Hc].
+  destruct (mv_bounded N M) as [s0 [_ Hs0]].
   set (s := Rmax 1 s0). assert (s1 : 1 <= s) by apply Rmax_l.
-  assert (Hs : bounded_on_1perp (S n) P s)
-    by (apply bounded_weaken with s0; [apply Rmax_r|apply Hc]).
-  assert (zs : forall k x, zero_sum (S n) x -> zero_sum (S n) (iter k P x))
-    by (intros; apply zero_sum_iter; assumption).
-  assert (Hr : forall r, bounded_on_1perp (S n) (iter r P) (s ^ r)).
-  { induction r as [|r IH]; intros x Hx; simpl; [lra|]. rewrite Rmult_assoc.
-    eapply Rle_trans; [apply Hs, zs, Hx|]. apply Rmult_le_compat_l; [lra|apply IH, Hx]. }
-  assert (Hq : forall q, bounded_on_1perp (S n) (iter (q * m) P) ((/ 2) ^ q)).
+  assert (Hs : forall x, norm N (P x) <= s * norm N x).
+  { intros x. eapply Rle_trans; [apply Hs0|].
+    apply Rmult_le_compat_r; [apply norm_nonneg|apply Rmax_r]. }
+  assert (zs : forall k x, Z x -> Z (iter k P x)) by (induction k; simpl; auto).
+  assert (Hr : forall r x, norm N (iter r P x) <= s ^ r * norm N x).
+  { induction r as [|r IH]; intros x; simpl; [lra|]. rewrite Rmult_assoc.
+    eapply Rle_trans; [apply Hs|]. apply Rmult_le_compat_l; [lra|apply IH]. }
+  assert (Hq : forall q x, Z x -> norm N (iter (q * m) P x) <= (/ 2) ^ q * norm N x).
   { induction q as [|q IH]; intros x Hx; [simpl; lra|].
     replace (S q * m)%nat with (m + q * m)%nat by lia. rewrite iter_plus. simpl pow.
     rewrite Rmult_assoc. eapply Rle_trans; [apply bound, zs, Hx|].
-    assert (T := IH x Hx). assert (Z := norm_nonneg (S n) (iter (q * m) P x)).
-    eapply Rle_trans; [apply Rmult_le_compat_r; [exact Z|exact Hm1]|].
+    assert (T := IH x Hx). assert (Y := norm_nonneg N (iter (q * m) P x)).
+    eapply Rle_trans; [apply Rmult_le_compat_r; [exact Y|exact Hm1]|].
     apply Rmult_le_compat_l; lra. }
   set (rho := Rpower (/ 2) (/ INR m)).
   assert (Pm : 0 < INR m) by (apply lt_0_INR; unfold m; lia).
@@ -108,9 +104,9 @@ Proof.
   assert (Dr := Nat.mod_upper_bound k m ltac:(unfold m; lia)).
   set (q := (k / m)%nat) in *. set (r := (k mod m)%nat) in *.
   replace k with (r + q * m)%nat at 1 by lia. rewrite iter_plus.
-  eapply Rle_trans; [apply Hr, zs, Hx|].
-  assert (T := Hq q x Hx). assert (X0 := norm_nonneg (S n) x).
-  apply Rle_trans with (s ^ m * ((/ 2) ^ q * norm (S n) x)).
+  eapply Rle_trans; [apply Hr|].
+  assert (T := Hq q x Hx). assert (X0 := norm_nonneg N x).
+  apply Rle_trans with (s ^ m * ((/ 2) ^ q * norm N x)).
   - apply Rmult_le_compat; [apply pow_le; lra|apply norm_nonneg| |exact T].
     apply Rle_pow; [exact s1|lia].
   - (* (1/2)^q = rho^(m q), and m q >= k - m *)
@@ -122,8 +118,19 @@ Proof.
         rewrite <- (pow1 (m - r)). apply pow_incr. lra. }
       assert (Q0 : 0 <= (/ 2) ^ q) by (apply pow_le; lra). nra. }
     assert (S0 : 0 <= s ^ m) by (apply pow_le; lra).
-    replace (2 * s ^ m * rho ^ k * norm (S n) x) with (s ^ m * (2 * rho ^ k * norm (S n) x)) by ring.
+    replace (2 * s ^ m * rho ^ k * norm N x) with (s ^ m * (2 * rho ^ k * norm N x)) by ring.
     apply Rmult_le_compat_l; [exact S0|]. apply Rmult_le_compat_r; assumption.
+Qed.
+
+Theorem decay_from_vanishing : decay_from_vanishing_statement.
+Proof.
+  intros N A mu HN bal V. destruct N as [|n]; [lia|].
+  apply (geometric_decay (S n) _ (zero_sum (S n)) n (difference n)).
+  - lia.
+  - apply difference_zero_sum.
+  - intros x. apply zero_sum_perron, bal.
+  - intros x Hx i. apply difference_span, Hx.
+  - intros j Hj. apply V, difference_zero_sum, Hj.
 Qed.
 
 Theorem claims_equivalent : claims_equivalent_statement.
@@ -185,10 +192,15 @@ Proof.
   - intros V x0 x u H. apply (from V x0 x u H).
 Qed.
 
-Theorem eigenvalues_from_decay : eigenvalues_from_decay_statement.
+(** Where the powers decay on both parts of an eigenvector, the modulus is at most their rate. *)
+Lemma modulus_from_decay N M C rho a b x y : 0 <= C -> 0 <= rho -> let P := mv N M in
+  (forall n, norm N (iter n P x) <= C * rho ^ n * norm N x) ->
+  (forall n, norm N (iter n P y) <= C * rho ^ n * norm N y) ->
+  0 < dot N x x + dot N y y ->
+  (forall i, (i < N)%nat -> P x i = a * x i - b * y i) ->
+  (forall i, (i < N)%nat -> P y i = b * x i + a * y i) -> a ^ 2 + b ^ 2 <= rho ^ 2.
 Proof.
-  intros N A mu C rho a b x y bal HC Hr P Hd Pxy Ex Ey Hne.
-  destruct (eigenvector_zero_sum N A mu a b x y bal Ex Ey Hne) as [Zx Zy].
+  intros HC Hr P Dx Dy Pxy Ex Ey.
   set (S2 := dot N x x + dot N y y) in *. set (m := a ^ 2 + b ^ 2).
   assert (E : forall n, dot N (iter n P x) (iter n P x) + dot N (iter n P y) (iter n P y)
                         = m ^ n * S2).
@@ -211,14 +223,14 @@ Proof.
     unfold m. ring. }
   assert (U : forall n, m ^ n <= C ^ 2 * (rho ^ 2) ^ n).
   { intros n. apply Rmult_le_reg_r with S2; [exact Pxy|]. rewrite <- E.
-    assert (Q : forall z, zero_sum N z ->
+    assert (Q : forall z, norm N (iter n P z) <= C * rho ^ n * norm N z ->
               dot N (iter n P z) (iter n P z) <= C ^ 2 * (rho ^ 2) ^ n * dot N z z).
-    { intros z Hz. assert (T := Hd n z Hz). fold P in T. rewrite <- !norm_sq.
+    { intros z T. rewrite <- !norm_sq.
       replace (C ^ 2 * (rho ^ 2) ^ n * (norm N z * norm N z))
         with ((C * rho ^ n * norm N z) * (C * rho ^ n * norm N z))
         by (rewrite <- pow_mult, (Nat.mul_comm 2 n), pow_mult; ring).
       apply Rmult_le_compat; try apply norm_nonneg; exact T. }
-    specialize (Q x Zx) as Qx. specialize (Q y Zy) as Qy. unfold S2. lra. }
+    assert (Qx := Q x (Dx n)). assert (Qy := Q y (Dy n)). unfold S2. lra. }
   (* powers of m cannot outgrow those of rho^2 *)
   fold m. apply Rnot_lt_le. intros L. assert (r2 := pow2_ge_0 rho).
   destruct (Req_dec (rho ^ 2) 0) as [Z|Z].
@@ -241,4 +253,12 @@ Proof.
     { apply Rmult_lt_reg_r with (/ p); [apply Rinv_0_lt_compat, Pp|].
       rewrite Rmult_assoc, Rinv_r by lra. unfold Rdiv in Hn. lra. }
     lra.
+Qed.
+
+Theorem eigenvalues_from_decay : eigenvalues_from_decay_statement.
+Proof.
+  intros N A mu C rho a b x y bal HC Hr P Hd Pxy Ex Ey Hne.
+  destruct (eigenvector_zero_sum N A mu a b x y bal Ex Ey Hne) as [Zx Zy].
+  apply (modulus_from_decay N (perron N A mu) C rho a b x y); try assumption;
+    intros n; apply Hd; assumption.
 Qed.

@@ -189,11 +189,14 @@ Proof.
   - apply phi_decay; [exact Ha|lra|apply Hc|apply contracts_decay; assumption].
 Qed.
 
-Theorem eqL3_characterised : eqL3_characterised_statement.
+(** A bound of u_k by M ||u_0|| for every x_0 bounds Phi_k on 1perp. *)
+Lemma phi_from_control N A alpha gamma h M k : assumption1 N A -> design alpha gamma h ->
+  0 <= M -> (forall x0 x u, closed_loop N A alpha gamma h x0 x u ->
+    norm N (u k) <= M * norm N (u 0%nat)) ->
+  bounded_on_1perp N (Phi alpha N (perron N A (mu_of alpha gamma h)) k) M.
 Proof.
-  intros N A alpha gamma h HN H1 D. assert (bal : balanced N A) by apply H1.
-  split; [|apply bound_from_phi; assumption].
-  intros HB k v Hv. set (P := perron N A (mu_of alpha gamma h)).
+  intros H1 D HM HB v Hv. assert (bal : balanced N A) by apply H1.
+  set (P := perron N A (mu_of alpha gamma h)).
   (* any nu with nu D < 1 serves to approximate v by starting controls *)
   set (nu := / (1 + degree_max N A)).
   assert (D0 : 0 <= degree_max N A) by apply max_lt_nonneg.
@@ -204,8 +207,8 @@ Proof.
   destruct (strict_contraction N A nu H1 Nu ND) as [s [Hs Hc]].
   assert (Hd := contracts_decay N A nu s bal Hc).
   destruct (phi_bounded N A (mu_of alpha gamma h) alpha k bal (proj1 D)) as [B [B0 HPhi]].
-  fold P in HPhi. rewrite Rmult_1_l.
-  apply (geometric_limit _ _ ((1 + B) * norm N v) s); [split; [apply Hc|exact Hs]|]. intros n.
+  fold P in HPhi.
+  apply (geometric_limit _ _ ((M + B) * norm N v) s); [split; [apply Hc|exact Hs]|]. intros n.
   set (w := iter n (mv N (perron N A nu)) v).
   assert (Hw : zero_sum N w) by (apply zero_sum_iter; assumption).
   assert (Nw : norm N w <= s ^ n * norm N v).
@@ -216,7 +219,7 @@ Proof.
             exact_control N A alpha gamma h x0 0 i = v i - w i).
   { intros i Hi. rewrite (loop_u0 N A alpha gamma h x0 D _ _ HL i Hi).
     apply reachable_control; [apply D|exact Hi]. }
-  assert (T := HB x0 _ _ HL k).
+  assert (T := HB x0 _ _ HL).
   rewrite (norm_ext N _ _ (loop_phi N A alpha gamma h x0 D _ _ HL k)) in T.
   rewrite (norm_ext N _ _ (phi_ext N _ alpha k _ _ E0)) in T.
   rewrite (norm_ext N _ _ E0) in T. fold P in T.
@@ -231,9 +234,31 @@ Proof.
   { rewrite (norm_ext N _ (fun j => v j + (-1) * w j)) by (intros; ring).
     eapply Rle_trans; [apply norm_triangle|]. rewrite norm_scal.
     rewrite Rabs_left by lra. lra. }
-  assert (T4 : (1 + B) * norm N w <= (1 + B) * (s ^ n * norm N v))
+  assert (T4 : (M + B) * norm N w <= (M + B) * (s ^ n * norm N v))
     by (apply Rmult_le_compat_l; lra).
+  assert (T5 : M * norm N (fun j => v j - w j) <= M * (norm N v + norm N w))
+    by (apply Rmult_le_compat_l; assumption).
   lra.
+Qed.
+
+Theorem control_peak : control_peak_statement.
+Proof.
+  intros N A alpha gamma h M HN H1 D HM P reaches_at_most.
+  assert (bal : balanced N A) by apply H1.
+  assert (E : forall k, reaches_at_most k <-> bounded_on_1perp N (Phi alpha N P k) M).
+  { intros k. split; [apply phi_from_control; assumption|]. intros B x0 x u HL.
+    rewrite (norm_ext N _ _ (loop_phi N A alpha gamma h x0 D x u HL k)).
+    apply B, (loop_u0_zero_sum N A alpha gamma h x0 D x u bal HL). }
+  split; [exact E|]. intros K HM1 H0 Hp k. apply E.
+  apply (phi_peak N P alpha (proj1 D) M K HM1); [|exact Hp]. intros j Hj. apply E, H0, Hj.
+Qed.
+
+Theorem eqL3_characterised : eqL3_characterised_statement.
+Proof.
+  intros N A alpha gamma h HN H1 D.
+  split; [|apply bound_from_phi; [apply H1|exact D]].
+  intros HB k. apply phi_from_control; [exact H1|exact D|lra|]. intros x0 x u HL.
+  rewrite Rmult_1_l. apply (HB x0 x u HL k).
 Qed.
 
 Theorem eqL3_needs_eqT2 : eqL3_needs_eqT2_statement.
@@ -258,10 +283,4 @@ Proof.
     apply Rmult_le_reg_r with (norm N v * norm N v); [nra|].
     eapply Rle_trans; [exact T|]. nra. }
   split; [exact L|]. intros G. apply (eqT2_closed_form alpha beta Ha). lra.
-Qed.
-
-Theorem remark1 : remark1_statement.
-Proof.
-  intros N A alpha gamma h n x0 x u H B k. apply sqrt_le_1_alt, sum_le. intros d Hd.
-  apply pow_incr. split; [apply norm_nonneg|]. apply (B (x0 d) (x d) (u d) (H d Hd) k).
 Qed.

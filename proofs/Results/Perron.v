@@ -35,7 +35,8 @@ Qed.
 
 Theorem perron_eigenvalues : perron_eigenvalues_statement.
 Proof.
-  intros N A mu HN H1 HG P. destruct (gain_bound_lt N A mu HG) as [Hm HD].
+  intros N A mu HN H1 HG. unfold perron_spectrum.
+  set (P := mv N (perron N A mu)). destruct (gain_bound_lt N A mu HG) as [Hm HD].
   destruct (strict_contraction N A mu H1 Hm HD) as [s [Hs Hc]].
   assert (H1' := H1). destruct H1 as [dig [con bal]].
   assert (fixed : forall y, zero_sum N y -> (forall i, (i < N)%nat -> P y i = y i) ->

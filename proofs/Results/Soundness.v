@@ -2,7 +2,7 @@
 From Coq Require Import Reals Arith Lia Lra.
 From Coquelicot Require Import Coquelicot.
 From Fomas Require Import Model.Vectors Model.Kernel Model.Gamma Model.Graph Model.Loop Statements.
-From Fomas Require Import Facts.Sums Facts.Vectors Facts.Graph Facts.Lambda2 Facts.Contraction.
+From Fomas Require Import Facts.Sums Facts.Vectors Facts.Graph Facts.Lambda2 Facts.Contraction Facts.Phi.
 Open Scope R_scope.
 
 (** * Positive definiteness *)
@@ -166,19 +166,24 @@ Qed.
 
 (** * Lyapunov matrices *)
 
-Theorem lyapunov : lyapunov_statement.
+Lemma lyapunov_powers N (Z : vec -> Prop) (T : vec -> vec) Q lo hi rho :
+  (forall x, Z x -> Z (T x)) -> 0 < lo -> 0 <= rho ->
+  (forall x, Z x -> lo * dot N x x <= form N Q x <= hi * dot N x x) ->
+  (forall x, Z x -> form N Q (T x) <= rho ^ 2 * form N Q x) ->
+  forall n x, Z x -> norm N (iter n T x) <= sqrt (hi / lo) * rho ^ n * norm N x.
 Proof.
-  intros N A mu Q lo hi rho bal Hlo Hr Hb HP n x Hx.
-  assert (G : form N Q (iter n (mv N (perron N A mu)) x) <= (rho ^ n) ^ 2 * form N Q x).
+  intros HZ Hlo Hr Hb HP n x Hx.
+  assert (zs : forall n, Z (iter n T x)) by (induction n0; simpl; auto).
+  assert (G : form N Q (iter n T x) <= (rho ^ n) ^ 2 * form N Q x).
   { induction n as [|n IH]; simpl iter; [simpl; lra|].
-    eapply Rle_trans; [apply HP, zero_sum_iter; assumption|].
+    eapply Rle_trans; [apply HP, zs|].
     replace ((rho ^ S n) ^ 2) with (rho ^ 2 * (rho ^ n) ^ 2) by (simpl; ring).
     rewrite Rmult_assoc. apply Rmult_le_compat_l; [apply pow2_ge_0|exact IH]. }
-  assert (L := proj1 (Hb _ (zero_sum_iter N A bal mu n x Hx))). assert (U := proj2 (Hb x Hx)).
+  assert (L := proj1 (Hb _ (zs n))). assert (U := proj2 (Hb x Hx)).
   assert (R0 : 0 <= rho ^ n) by (apply pow_le, Hr).
-  set (y := iter n (mv N (perron N A mu)) x) in *.
-  destruct (Req_dec (dot N x x) 0) as [Z|Z].
-  - assert (L0 := proj1 (Hb x Hx)). rewrite Z, Rmult_0_r in *.
+  set (y := iter n T x) in *.
+  destruct (Req_dec (dot N x x) 0) as [E|E].
+  - assert (L0 := proj1 (Hb x Hx)). rewrite E, Rmult_0_r in *.
     assert (dot N y y <= 0) by nra. assert (Y0 := dot_nonneg N y).
     assert (norm N y = 0) by (unfold norm; replace (dot N y y) with 0 by lra; apply sqrt_0).
     rewrite H0. apply Rmult_le_pos; [|apply norm_nonneg].
@@ -199,12 +204,11 @@ Proof.
     apply Rmult_le_compat_l; [apply pow2_ge_0|exact U].
 Qed.
 
-Lemma sum_vanishes n (F : nat -> nat -> R) : (forall i, (i < n)%nat -> is_lim_seq (F i) 0) ->
-  is_lim_seq (fun k => \sum_(i < n) F i k) 0.
+Theorem lyapunov : lyapunov_statement.
 Proof.
-  induction n as [|n IH]; intros H; [apply is_lim_seq_const|].
-  replace (Finite 0) with (Finite (0 + 0)) by (f_equal; ring).
-  apply (is_lim_seq_plus' (fun k => \sum_(i < n) F i k) (F n)); auto.
+  intros N A mu Q lo hi rho bal Hlo Hr Hb HP n x.
+  apply (lyapunov_powers N (zero_sum N) (mv N (perron N A mu)) Q lo hi rho); try assumption.
+  intros y. apply zero_sum_perron, bal.
 Qed.
 
 Theorem lyapunov_refutation : lyapunov_refutation_statement.

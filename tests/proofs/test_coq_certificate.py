@@ -25,8 +25,12 @@ WEIGHTED = (
     'name = "7 agents"\nalpha = "2/3"\ngamma = 0.2\nh = "1/2"\n[graph]\nagents = 3\n'
     'edges = [[1,2,"1/3"], [2,3,"1/3"], [3,1,"13/21"], [1,3,"2/7"]]\n'
 )
+PAIR = 'alpha = "1/2"\nmu = "1/2"\n[graph]\nfamily = "complete"\nagents = 2\n'
+# keywords of Coq, names of its libraries and of ours, and names that are none
+ODD_NAMES = ("Theorem", "Prop", "import", "fun", "forall", "Reals", "Statements", "1 a-b", "αβ", "a_" * 80)
 EXAMPLES = ("paper", "repaired", "ring10", "complete8", "path4", "unbalanced")
 TEXTS = {"beyond": BEYOND, "tight": TIGHT, "apart": DISCONNECTED, "weighted": WEIGHTED}
+SMALL = {**TEXTS, "pair": PAIR}
 OMITTED = {
     "paper": ("trajectory-norm-bound (proved)",),
     "beyond": ("control-norm-bound (proved)",),
@@ -65,9 +69,9 @@ def proof(checkout: Path, tmp_path_factory: pytest.TempPathFactory) -> Callable[
 
     def decide(name: str) -> Proof:
         path = checkout / "examples" / f"{name}.toml"
-        if name in TEXTS:
+        if name in SMALL:
             path = tmp_path_factory.mktemp("design") / "design.toml"
-            path.write_text(TEXTS[name])
+            path.write_text(SMALL[name])
         return prove(read_design(path))
 
     return decide
@@ -185,7 +189,31 @@ def test_nothing_decided_is_nothing_to_restate(proof: Callable[[str], Proof]) ->
 
 @pytest.mark.parametrize(
     ("name", "module"),
-    [("paper", "Paper"), ("7 agents", "Design_7_agents"), ("a/../b c", "A_b_c"), ("αβ", "Design"), ("_x", "X")],
+    [
+        ("paper", "Paper"),
+        ("7 agents", "Design_7_agents"),
+        ("a/../b c", "A_b_c"),
+        ("αβ", "Design"),
+        ("_", "Design"),
+        ("_x", "X"),
+        ("Theorem", "Design_Theorem"),
+        ("set", "Design_Set"),
+        ("fun", "Fun"),
+    ],
 )
 def test_a_name_becomes_a_module(name: str, module: str) -> None:
     assert module_name(name) == module
+
+
+@pytest.mark.slow
+@needs_coq
+def test_a_file_of_any_name_compiles_and_can_be_required(proof: Callable[[str], Proof], coqc: Coqc) -> None:
+    text = restated(proof("pair")).text
+    modules = {module_name(name) for name in ODD_NAMES}
+    assert len(modules) == len(ODD_NAMES)
+    for module in modules:
+        run = coqc(module, text)
+        assert run.returncode == 0, run.stderr[-2000:]
+    uses = "".join(f"Require {module}.\nCheck {module}.certified.\n" for module in sorted(modules))
+    run = coqc("Uses", uses)
+    assert run.returncode == 0, run.stderr[-2000:]

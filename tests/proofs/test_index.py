@@ -1,6 +1,9 @@
 """The index of the proofs, the Coq files, the README and the claims name the same things."""
 
 import re
+import shutil
+import subprocess
+import sys
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -56,11 +59,22 @@ def test_every_theorem_is_indexed_and_every_entry_exists(proofs: Path, index: di
 def test_a_headline_theorem_has_the_type_that_statements_gives_it(
     proofs: Path, index: dict[str, list[dict[str, Any]]]
 ) -> None:
-    stated = set(re.findall(r"^Definition (\w+)_statement : Prop", (proofs / "Statements.v").read_text("utf-8"), re.M))
+    sources = [path.read_text("utf-8") for path in sorted((proofs / "Statements").glob("*.v"))]
+    stated = {name for source in sources for name in re.findall(r"^Definition (\w+)_statement : Prop", source, re.M)}
     headline = {entry["name"]: entry["file"] for entry in index["theorem"] if entry["status"] not in INLINE}
     assert set(headline) == stated
     for name, file in headline.items():
         assert theorems((proofs / file).read_text("utf-8"))[name] == f"{name}_statement"
+
+
+def test_statements_proves_nothing_and_exports_every_file(proofs: Path) -> None:
+    files = sorted((proofs / "Statements").glob("*.v"))
+    exported = re.findall(
+        r"^From Fomas Require Export Statements\.(\w+)\.$", (proofs / "Statements.v").read_text("utf-8"), re.M
+    )
+    assert sorted(exported) == [path.stem for path in files]
+    for path in files:
+        assert not re.search(r"\b(?:Lemma|Theorem|Proof)\b", COMMENT.sub("", path.read_text("utf-8"))), path.name
 
 
 def test_every_file_is_compiled(proofs: Path) -> None:
@@ -93,16 +107,52 @@ def test_a_false_sentence_names_its_counterexample(index: dict[str, list[dict[st
         assert refuting & set(sentence["coq"]), sentence["label"]
 
 
-def test_the_readme_has_every_sentence_and_every_theorem(proofs: Path, index: dict[str, list[dict[str, Any]]]) -> None:
+def test_the_readme_leads_from_every_sentence_to_its_statement(
+    proofs: Path, index: dict[str, list[dict[str, Any]]]
+) -> None:
     readme = (proofs / "README.md").read_text("utf-8")
-    files = {entry["name"]: entry["file"] for entry in index["theorem"]}
-    linked = dict(re.findall(r"\[`(\w+)`\]\(([\w/]+\.v)\)", readme))
-    assert linked == files
+    links = re.findall(r"\[`(\w+)`\]\(([\w/]+\.v)#L(\d+)\)", readme)
+    inline = {entry["name"] for entry in index["theorem"] if entry["status"] in INLINE}
+    model = {name for sentence in index["sentence"] for name in sentence.get("model", [])}
+    assert {name for name, _, _ in links} == {entry["name"] for entry in index["theorem"]} | model
+    for name, file, number in links:
+        line = (proofs / file).read_text("utf-8").splitlines()[int(number) - 1]
+        start = f"Theorem {name}" if name in inline else f"Definition {name}" + "_statement" * (name not in model)
+        assert re.match(rf"{start}\b", line), name
     for sentence in index["sentence"]:
         text = sentence["text"].replace("|", "&#124;")
-        assert f"| {sentence['label']} | {text} | {sentence['status']} |" in readme
+        (line,) = (row for row in readme.splitlines() if row.startswith(f"| {sentence['label']} | {text} |"))
+        assert f"| {sentence['status']} |" in line
+        assert all(f"[`{name}`]" in line for name in sentence["coq"])
     for entry in index["open"]:
         assert entry["text"].replace("|", "&#124;") in readme
+
+
+def test_the_readme_names_the_file_of_every_proof(proofs: Path, index: dict[str, list[dict[str, Any]]]) -> None:
+    readme = (proofs / "README.md").read_text("utf-8").partition("## Where each is proved")[2]
+    listed = {
+        name: file
+        for file, names in re.findall(r"^\| \[([\w/]+\.v)\]\(\1\) \| (.*) \|$", readme, re.MULTILINE)
+        for name in re.findall(r"`(\w+)`", names)
+    }
+    assert listed == {entry["name"]: entry["file"] for entry in index["theorem"]}
+
+
+def test_the_tables_are_written_from_the_index(proofs: Path, tmp_path: Path) -> None:
+    """And a statement moved by a line is seen."""
+
+    def check(folder: Path) -> int:
+        return subprocess.run(
+            [sys.executable, folder / "tables.py", "--check"], capture_output=True, check=False
+        ).returncode
+
+    assert check(proofs) == 0
+    copy = tmp_path / "proofs"
+    shutil.copytree(proofs, copy, ignore=shutil.ignore_patterns("*.vo*", "*.glob", "*.aux"))
+    assert check(copy) == 0
+    kernel = copy / "Statements" / "Kernel.v"
+    kernel.write_text("\n" + kernel.read_text("utf-8"), "utf-8")
+    assert check(copy) == 1
 
 
 def test_a_missing_theorem_would_be_seen() -> None:
