@@ -9,7 +9,7 @@ from typing import Any
 
 from fomas_verify.claims.registry import CLAIMS
 from fomas_verify.claims.verdict import Decision
-from fomas_verify.design import Design
+from fomas_verify.design import Design, UncertainDesign
 from fomas_verify.exact.rational import format_rational
 
 FORMAT = "fomas-certificate/1"
@@ -17,7 +17,10 @@ TOOL = "fomas_verify"
 
 
 def certificate_text(
-    design: Design, values: Mapping[str, Mapping[str, Any]], decisions: Mapping[str, Decision], version: str
+    design: Design | UncertainDesign,
+    values: Mapping[str, Mapping[str, Any]],
+    decisions: Mapping[str, Decision],
+    version: str,
 ) -> str:
     """The certificate of a design, the same bytes on every machine for the same design, options and version."""
     document = {
@@ -40,12 +43,14 @@ def certificate_text(
     return dump(document) + "\n"
 
 
-def design_object(design: Design) -> dict[str, Any]:
+def design_object(named: Design | UncertainDesign) -> dict[str, Any]:
     """The design as the certificate names it: what the statements are about, without name, file or options."""
+    design, ranges = (named.least, named.ranges) if isinstance(named, UncertainDesign) else (named, {})
     graph = design.graph
     parts: dict[str, Any] = {"alpha": design.alpha, "gamma": design.gamma, "mu": design.mu, "h": design.h}
     parts |= {"agents": graph.agents, "edges": [[*edge] for edge in sorted(graph.edges)], "x0": _state(design)}
     parts |= {"require": list(design.require)}
+    parts |= {key: [x.lower, x.upper] for key, x in ranges.items()}
     return {key: plain(value) for key, value in parts.items() if value is not None}
 
 

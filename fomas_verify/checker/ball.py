@@ -1,4 +1,4 @@
-"""A real matrix known up to an error: integers times a power of two, and a bound of the Frobenius norm of what is off.
+"""A real matrix known up to an error: integers times a power of two, and a bound of the norm of what is off.
 
 `columns` holds one list a column. Under Assumption 1 the matrices here are polynomials in P, taken to be 0 on the
 vector 1: their norm on R^N is their norm on 1perp. P is there D = P - J, J = 1 1^T / N, and D^k = P^k - J.
@@ -10,8 +10,8 @@ from functools import cached_property
 from math import ceil, isqrt
 from operator import mul
 
-from fomas_verify.checker.facts import Facts
 from fomas_verify.checker.graph import Rows
+from fomas_verify.checker.loop import Loop
 
 _ITERATIONS = 30
 _GUESS_BITS = 56
@@ -19,7 +19,7 @@ _GUESS_BITS = 56
 
 @dataclass(frozen=True)
 class Ball:
-    """A real matrix M with Frobenius norm of (M / 2^exponent - columns) <= error.
+    """A real matrix M with norm of (M / 2^exponent - columns) <= error; of the Frobenius norm in a trajectory.
 
     `known`, where given, is an upper bound of norm M / 2^exponent.
     """
@@ -55,13 +55,13 @@ class Ball:
 
     @property
     def frobenius(self) -> int:
-        """An upper bound of the Frobenius norm of M / 2^exponent, so of its norm."""
+        """An upper bound of norm M / 2^exponent; of the Frobenius norm in a trajectory."""
         return isqrt(self.square) + 1 + self.error
 
     @property
     def size(self) -> int:
-        """An upper bound of norm M / 2^exponent: the one that is known, else that of Frobenius."""
-        return self.frobenius if self.known is None else self.known
+        """An upper bound of norm M / 2^exponent: of Frobenius, or the one that is known."""
+        return self.frobenius if self.known is None else min(self.known, self.frobenius)
 
 
 def _whole(lower: Rows) -> Rows:
@@ -85,10 +85,10 @@ def rounding(columns: Rows) -> int:
 
 
 def product(a: Ball, b: Ball, bits: int | None) -> Ball:
-    """a b, rounded to integers of `bits` bits where given: (A + E)(B + F) - A B = A F + E B + E F. Rigorous."""
+    """a b, rounded to integers of `bits` bits where given: (A + E)(B + F) - A B = (A + E) F + E B. Rigorous."""
     rows = list(zip(*a.columns, strict=True))
     columns = [[sum(map(mul, row, column)) for row in rows] for column in b.columns]
-    error = a.size * b.error + a.error * b.size
+    error = a.size * b.error + a.error * (b.size + b.error)
     result = Ball(columns, a.exponent + b.exponent, error)
     return result if bits is None else fitted(result, bits)
 
@@ -103,25 +103,25 @@ def power(base: Ball, n: int, bits: int | None) -> Ball:
     return result
 
 
-def exact_deviation(facts: Facts, mu: Fraction) -> tuple[Rows, int]:
+def exact_deviation(loop: Loop, mu: Fraction) -> tuple[Rows, int]:
     """(columns X, q) with D = X / q, at a rational mu."""
-    d, n = facts.graph.denominator, facts.design.agents
+    graph = loop.graph
+    d, n = graph.denominator, graph.agents
     one, many = mu.denominator * d, n * mu.numerator
-    columns = [[-many * entry - one for entry in column] for column in zip(*facts.graph.laplacian, strict=True)]
+    columns = [[-many * entry - one for entry in column] for column in zip(*graph.laplacian, strict=True)]
     for i, column in enumerate(columns):
         column[i] += n * one
     return columns, n * one
 
 
-def deviation(facts: Facts, bits: int, scale: Fraction = Fraction(1)) -> Ball:
+def deviation(loop: Loop, bits: int, scale: Fraction = Fraction(1)) -> Ball:
     """`scale` > 0 times D, with integers of about `bits` bits. Rigorous."""
-    mu = facts.mu(bits + 16)
-    columns, q = exact_deviation(facts, mu.lower)
+    graph, mu = loop.graph, loop.mu(bits + 16)
+    columns, q = exact_deviation(loop, mu.middle)
     below = q * scale.denominator
     width = bits + below.bit_length() - (scale.numerator * max(max(map(abs, c)) for c in columns) or 1).bit_length()
     above = scale.numerator << max(width, 0)
     below <<= max(-width, 0)
     rounded = [[entry * above // below for entry in column] for column in columns]
-    # norm of L <= 2 D, and its Frobenius norm at most sqrt(N) times that.
-    missed = (mu.upper - mu.lower) * 2 * facts.graph.degree_max * facts.design.agents * scale * Fraction(2) ** width
+    missed = mu.radius * graph.size * scale * Fraction(2) ** width
     return Ball(rounded, -width, rounding(rounded) + ceil(missed))

@@ -16,8 +16,10 @@ from fomas_verify.checker.contraction import (
 )
 from fomas_verify.checker.document import Claim
 from fomas_verify.checker.facts import Facts
+from fomas_verify.checker.graph import Graph
+from fomas_verify.checker.member_form import MemberWitness
 from fomas_verify.checker.relation import (
-    require_agreement,
+    moves,
     require_excess,
     require_excess_at,
     require_largest_bound,
@@ -55,17 +57,28 @@ def require_claim(facts: Facts, claim: Claim) -> str:
     Undecided
         If that was not decided within the work allowed.
     """
+    reason = presupposed(facts.graph, claim)
+    if reason is None:
+        require_shown(facts, claim.id, claim.verdict, claim.witness)
+        reason = "true" if isinstance(claim.witness, Nothing) else "true, and the witness shows it"
+    return reason
+
+
+def presupposed(graph: Graph, claim: Claim) -> str | None:
+    """Return why a claim is accepted that asserts nothing of the numbers, None where it does; raise `Refused`."""
     need_that(claim.statement == STATEMENTS[claim.id], "the statement is the one of this claim, to the letter")
-    need_that(claim.id != "trajectory-norm-bound" or facts.design.x0 is not None, "the design has x0")
-    applicable = claim.id in ANY_GRAPH or facts.graph.satisfies_assumption
+    need_that(claim.id != "trajectory-norm-bound" or graph.design.x0 is not None, "the design has x0")
+    applicable = claim.id in ANY_GRAPH or graph.satisfies_assumption
     if claim.verdict == "inapplicable":
         need_that(not applicable, "Assumption 1 fails, and the claim presupposes it")
         return "Assumption 1 fails"
     need_that(applicable, "the claim is applicable (Assumption 1 fails)")
-    if claim.verdict == "undecided":
-        return "asserts nothing"
-    _TESTS[claim.id, claim.verdict, type(claim.witness)](facts, claim.witness)
-    return "true" if isinstance(claim.witness, Nothing) else "true, and the witness shows it"
+    return "asserts nothing" if claim.verdict == "undecided" else None
+
+
+def require_shown(facts: Facts, claim: str, verdict: str, witness: MemberWitness) -> None:
+    """Return if a witness shows a verdict on a claim that is applicable; raise `Refused` or `Undecided` if not."""
+    _TESTS[claim, verdict, type(witness)](facts, witness)
 
 
 def _assumption_holds(facts: Facts, _: Nothing) -> None:
@@ -134,6 +147,11 @@ def _sigma_within(facts: Facts, _: Nothing) -> None:
     need(sigma_below_first(facts), (0, 1), "sigma <= 2^alpha - 1")
 
 
+def _agreed_or_within(facts: Facts, _: Nothing) -> None:
+    if moves(facts.graph):
+        need(sigma_below_first(facts), (0, 1), "L x_0 = 0, or sigma <= 2^alpha - 1")
+
+
 _CONSENSUS = ("perron-eigenvalues", "control-bounded", "average-consensus")
 
 # No entry, no acceptance: a verdict and witness that are not listed here are not taken for shown.
@@ -149,10 +167,12 @@ _TESTS: dict[tuple[str, str, type], Callable[[Facts, Any], None]] = {
     ("beta-contraction", "refuted", Vector): require_beyond_beta,
     ("repaired-condition", "proved", Nothing): _sigma_within,
     ("repaired-condition", "refuted", Vector): require_beyond_threshold,
+    ("control-norm-bound", "proved", Nothing): _sigma_within,
+    ("control-norm-bound", "refuted", Power): _grows,
     ("control-norm-bound", "proved", Lemma): require_lemma,
     ("control-norm-bound", "proved", LargestBound): require_largest_bound,
     ("control-norm-bound", "refuted", Excess): require_excess,
-    ("trajectory-norm-bound", "proved", Nothing): require_agreement,
+    ("trajectory-norm-bound", "proved", Nothing): _agreed_or_within,
     ("trajectory-norm-bound", "proved", Lemma): require_lemma_of,
     ("trajectory-norm-bound", "proved", LargestBound): require_largest_bound,
     ("trajectory-norm-bound", "refuted", ExcessAt): require_excess_at,

@@ -11,10 +11,11 @@ from fractions import Fraction
 from typing import cast
 
 from fomas_verify.checker.definite import exact_sign, least_sign, quick_sign
-from fomas_verify.checker.document import Design
+from fomas_verify.checker.designs import Design
 from fomas_verify.checker.field import Root
 from fomas_verify.checker.graph import Graph, Rows
-from fomas_verify.checker.powers import Enclosure, gamma_one_plus, outward, point, power
+from fomas_verify.checker.powers import Enclosure, first_threshold, gamma_one_plus, outward, point, power
+from fomas_verify.checker.resolvent import Kernel, kernel
 from fomas_verify.checker.ruling import Undecided
 
 BITS = (128, 256, 512, 1024, 2048, 4096)
@@ -24,9 +25,11 @@ Approximation = Callable[[int], Enclosure]
 Exact = Callable[[], int]
 
 
-def settle(test: Callable[[int], int | None], exact: Exact | None = None) -> int | None:
+def settle(
+    test: Callable[[int], int | None], exact: Exact | None = None, precisions: tuple[int, ...] = ()
+) -> int | None:
     """The first sign that `test` finds as the precision doubles; `exact` takes over after two tries, where given."""
-    for bits in BITS if exact is None else BITS[:2]:
+    for bits in precisions or (BITS if exact is None else BITS[:2]):
         sign = test(bits)
         if sign is not None:
             return sign
@@ -41,6 +44,11 @@ class Facts:
     graph: Graph
 
     @property
+    def precisions(self) -> tuple[int, ...]:
+        """All of them."""
+        return BITS
+
+    @property
     def tied_mu(self) -> Fraction | None:
         """mu if it is rational and alpha = 1/2: where a tie with 2^alpha is possible; else None."""
         return self.design.mu if self.design.alpha == Fraction(1, 2) else None
@@ -53,10 +61,13 @@ class Facts:
         top, below = power(design.h, design.alpha, bits), gamma_one_plus(design.alpha, bits)
         return outward(design.gamma * top.lower / below.upper, design.gamma * top.upper / below.lower, bits)
 
+    def kernel(self, scale: int) -> Kernel:
+        """The memory of the design."""
+        return kernel(self.design.alpha, scale)
+
     def threshold(self, bits: int) -> Enclosure:
         """2^alpha - 1, both ends >= 0."""
-        two = power(Fraction(2), self.design.alpha, bits)
-        return Enclosure(max(two.lower, Fraction(1)) - 1, two.upper - 1)
+        return first_threshold(self.design.alpha, bits)
 
     def compare_mu(self, t: Fraction) -> int | None:
         """The sign of mu - t."""
@@ -95,7 +106,7 @@ class Facts:
                 return -1
             if box.lower == box.upper and mu.lower == mu.upper:
                 return least_sign(self.sigma_form(box.upper**2, mu.upper))
-            ends = (mu.lower, mu.upper)
+            ends = {mu.lower, mu.upper}
             if box.lower >= 0 and all(quick_sign(self.sigma_form(box.lower**2, t), 2 * bits) == 1 for t in ends):
                 return 1
             above = box.upper + 2 * self.graph.degree_max * (mu.upper - mu.lower)

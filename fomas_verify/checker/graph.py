@@ -8,10 +8,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from math import lcm
+from math import isqrt, lcm
 from operator import mul
 
-from fomas_verify.checker.document import Design
+from fomas_verify.checker.designs import Setting
 from fomas_verify.checker.field import Element, Root
 from fomas_verify.checker.ruling import Undecided
 
@@ -56,17 +56,22 @@ def limit_size(bits: int, size: int) -> None:
 class Graph:
     """The digraph of a design."""
 
-    design: Design
+    design: Setting
+
+    @property
+    def agents(self) -> int:
+        """N."""
+        return self.design.agents
 
     @cached_property
     def denominator(self) -> int:
         """d."""
-        return common_denominator([Fraction(1), *(weight for _, _, weight in self.design.edges)], self.design.agents)
+        return common_denominator([Fraction(1), *(weight for _, _, weight in self.design.edges)], self.agents)
 
     @cached_property
     def laplacian(self) -> Rows:
         """d L, all rows in full."""
-        rows = [[0] * self.design.agents for _ in range(self.design.agents)]
+        rows = [[0] * self.agents for _ in range(self.agents)]
         for source, target, weight in self.design.edges:
             scaled = int(weight * self.denominator)
             rows[target - 1][source - 1] -= scaled
@@ -85,11 +90,22 @@ class Graph:
     @cached_property
     def degree_max(self) -> Fraction:
         """D = max_i sum_j a_ij."""
-        return max(self.heard(agent) for agent in range(1, self.design.agents + 1))
+        return max(self.heard(agent) for agent in range(1, self.agents + 1))
+
+    @cached_property
+    def frobenius(self) -> Fraction:
+        """An upper bound of the Frobenius norm of L."""
+        square = sum(entry**2 for row in self.laplacian for entry in row)
+        return Fraction(isqrt(square << 64) + 1, self.denominator << 32)
+
+    @property
+    def size(self) -> Fraction:
+        """An upper bound of norm L, under Assumption 1: norm L^2 <= norm_1 norm_oo <= (2 D)^2."""
+        return min(self.frobenius, 2 * self.degree_max)
 
     def reachable(self, start: int) -> set[int]:
         """The agents to which a directed path leads from `start`, itself included."""
-        listeners: list[list[int]] = [[] for _ in range(self.design.agents + 1)]
+        listeners: list[list[int]] = [[] for _ in range(self.agents + 1)]
         for source, target, _ in self.design.edges:
             listeners[source].append(target)
         found = {start}
@@ -108,7 +124,7 @@ class Graph:
         On a balanced graph it is enough that agent 1 reaches all: no edge leads from outside into the set B of those
         that reach agent 1, so by balance none leads out, and all that agent 1, in B, reaches is in B.
         """
-        agents = range(1, self.design.agents + 1)
+        agents = range(1, self.agents + 1)
         return all(self.heard(agent) == self.spoken(agent) for agent in agents) and self.reachable(1) == set(agents)
 
     @cached_property
@@ -126,7 +142,7 @@ class Graph:
     @cached_property
     def _gram(self) -> Rows:
         """V^T V."""
-        return [[1] * i + [2] for i in range(self.design.agents - 1)]
+        return [[1] * i + [2] for i in range(self.agents - 1)]
 
     @cached_property
     def _symmetric_part(self) -> Rows:
@@ -137,7 +153,7 @@ class Graph:
     @cached_property
     def _square(self) -> Rows:
         """V^T d^2 L^T L V."""
-        total = [[0] * (i + 1) for i in range(self.design.agents)]
+        total = [[0] * (i + 1) for i in range(self.agents)]
         for row in self.laplacian:
             entries = [(j, entry) for j, entry in enumerate(row) if entry]
             for i, left in entries:
@@ -161,7 +177,7 @@ class Graph:
         """A positive multiple of gram V^T V + symmetric V^T (L + L^T) V + square V^T L^T L V."""
         d = self.denominator
         weights = [gram, symmetric / d, square / d**2]
-        common = _scale(weights, self.design.agents)
+        common = _scale(weights, self.agents)
         a, b, c = (int(weight * common) for weight in weights)
         return [
             [a * x + b * y + c * z for x, y, z in zip(*lines, strict=True)]
@@ -174,7 +190,7 @@ class Graph:
         """The same with the polynomial `gram` at theta in place of a rational, over Q(theta)."""
         d = self.denominator
         constants = [symmetric / d, square / d**2]
-        common = lcm(root.integer_scale(gram), _scale(constants, self.design.agents))
+        common = lcm(root.integer_scale(gram), _scale(constants, self.agents))
         return [
             [
                 root.element([gram[0] * x + constants[0] * y + constants[1] * z, *(g * x for g in gram[1:])], common)

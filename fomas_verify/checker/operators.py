@@ -8,6 +8,7 @@ from math import ceil, floor, isqrt
 
 from fomas_verify.checker.ball import Ball, rounding
 from fomas_verify.checker.facts import Approximation, Facts, settle
+from fomas_verify.checker.loop import Loop
 from fomas_verify.checker.norms import compare_norm, norm_upper
 from fomas_verify.checker.powers import Enclosure
 from fomas_verify.checker.samples import GUARD, Samples
@@ -16,9 +17,9 @@ from fomas_verify.checker.samples import GUARD, Samples
 class Operators:
     """The norms at one precision. Bounds are integers at the scale of the samples, and get smaller as more is asked."""
 
-    def __init__(self, facts: Facts, bits: int) -> None:
+    def __init__(self, loop: Loop, bits: int) -> None:
         self.bits = bits
-        self.samples = Samples(facts, bits, _centring(facts.design.agents, bits))
+        self.samples = Samples(loop, bits, _centring(loop.graph.agents, bits))
         self.kernel, self.scale = self.samples.kernel, self.samples.scale
         self.one = 1 << self.scale
         self._powers = [self.one]
@@ -86,9 +87,7 @@ class Operators:
 
     def decays(self, start: int, m: int) -> int | None:
         """The sign of c_(K+1+m) / c_(K+1) - p_m, K = `start`, or None if it is not seen."""
-        # As alpha > 2^-64 and there are at most 2^15 samples, c_n > 2^-80: both lower bounds are positive.
-        (first, first_up), (last, last_up) = (self.kernel.step_response(start + 1 + i) for i in (0, m))
-        return self.power_sign(m, (last << self.scale) // first_up, -(-(last_up << self.scale) // first))
+        return self.power_sign(m, *self.kernel.decay(start + 1, m))
 
     def _stays_below(self, bound: int, n: int) -> bool:
         """Whether sigma u + r_(n+1) <= u."""
@@ -113,13 +112,13 @@ def _centring(agents: int, bits: int) -> Ball:
     """I - J at the scale."""
     one = 1 << bits + GUARD
     columns = [[(one * (agents * (i == j) - 1)) // agents for i in range(agents)] for j in range(agents)]
-    return Ball(columns, -bits - GUARD, rounding(columns))
+    return Ball(columns, -bits - GUARD, rounding(columns), one)
 
 
 @lru_cache(maxsize=4)
-def operators(facts: Facts, bits: int) -> Operators:
-    """The norms of a design at a precision, one for all who ask."""
-    return Operators(facts, bits)
+def operators(loop: Loop, bits: int) -> Operators:
+    """The norms of a loop at a precision, one for all who ask."""
+    return Operators(loop, bits)
 
 
 def compare_peak(facts: Facts, u: Approximation) -> int | None:

@@ -20,6 +20,16 @@ class Enclosure:
     lower: Fraction
     upper: Fraction
 
+    @property
+    def middle(self) -> Fraction:
+        """Half way between."""
+        return (self.lower + self.upper) / 2
+
+    @property
+    def radius(self) -> Fraction:
+        """How far x may be from the middle."""
+        return (self.upper - self.lower) / 2
+
 
 def point(x: Fraction) -> Enclosure:
     """The enclosure of a rational by itself."""
@@ -47,6 +57,22 @@ def square_root(x: Enclosure, bits: int) -> Enclosure:
     lower = isqrt((max(x.lower.numerator, 0) << 2 * bits) // x.lower.denominator)
     upper = isqrt((x.upper.numerator << 2 * bits) // x.upper.denominator) + 1
     return Enclosure(Fraction(lower, 1 << bits), Fraction(upper, 1 << bits))
+
+
+def first_threshold(alpha: Fraction, bits: int) -> Enclosure:
+    """c_1 = 2^alpha - 1 for 0 <= alpha <= 1, exactly at the ends. Rigorous."""
+    if alpha in (0, 1):
+        return point(alpha)
+    two = power(Fraction(2), alpha, bits)
+    return Enclosure(max(two.lower, Fraction(1)) - 1, two.upper - 1)
+
+
+def second_threshold(alpha: Fraction, bits: int) -> Enclosure:
+    """sqrt(c_2) = sqrt(3^alpha - 2^alpha) for 0 <= alpha <= 1, exactly at the ends. Rigorous."""
+    if alpha in (0, 1):
+        return point(alpha)
+    two, three = (power(Fraction(base), alpha, bits) for base in (2, 3))
+    return square_root(Enclosure(three.lower - two.upper, three.upper - two.lower), bits)
 
 
 def outward(lower: Fraction, upper: Fraction, bits: int) -> Enclosure:

@@ -5,13 +5,18 @@ Source: docs/certificate-format.md, section 6.
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from functools import partial
 from typing import Literal, TypeVar
 
 from fomas_verify.checker.claims import require_claim
-from fomas_verify.checker.document import Claim, Design, Document, Value, read_document
+from fomas_verify.checker.designs import Design, UncertainDesign
+from fomas_verify.checker.document import Claim, Document, read_document
 from fomas_verify.checker.facts import Facts
 from fomas_verify.checker.graph import Graph
+from fomas_verify.checker.member_values import require_value_of_all
+from fomas_verify.checker.members import Members, require_claim_of_all
 from fomas_verify.checker.ruling import Refused, Undecided
+from fomas_verify.checker.value_form import Value
 from fomas_verify.checker.values import require_value
 
 MAX_AGENTS = 2000
@@ -27,7 +32,7 @@ class Outcome:
     Attributes
     ----------
     kind : which of the two it is
-    id : the value's key or the claim's id
+    id : the value's key (a margin's keys, with points between) or the claim's id
     verdict : the certificate's verdict on a claim, None for a value
     status : `accepted` if it is true and seen to be, `refused` if it is false or not shown by its witness, `undecided`
         if that took more than the work allowed
@@ -60,7 +65,7 @@ class Report:
     outcomes : one for each value and each claim, in the file's order
     """
 
-    design: Design
+    design: Design | UncertainDesign
     outcomes: tuple[Outcome, ...]
 
     @property
@@ -118,24 +123,33 @@ def check(document_bytes: bytes) -> Report:
         If the bytes are not a certificate of this format.
     """
     document = read_document(document_bytes)
-    facts = Facts(document.design, Graph(document.design))
-    return Report(document.design, tuple(_outcomes(facts, document)))
+    return Report(document.design, tuple(_outcomes(document)))
 
 
-def _outcomes(facts: Facts, document: Document) -> Iterable[Outcome]:
+def _outcomes(document: Document) -> Iterable[Outcome]:
+    design = document.design
+    value_test, claim_test = _tests(design)
     for value in document.values:
-        status, reason = _ruled(facts, require_value, value)
+        status, reason = _ruled(design.agents, value_test, value)
         yield Outcome("value", value.name, None, status, reason)
     for claim in document.claims:
-        status, reason = _ruled(facts, require_claim, claim)
+        status, reason = _ruled(design.agents, claim_test, claim)
         yield Outcome("claim", claim.id, claim.verdict, status, reason)
 
 
-def _ruled(facts: Facts, test: Callable[[Facts, Said], str], said: Said) -> tuple[Status, str]:
-    if facts.design.agents > MAX_AGENTS:
+def _tests(design: Design | UncertainDesign) -> tuple[Callable[[Value], str], Callable[[Claim], str]]:
+    if isinstance(design, UncertainDesign):
+        members = Members(design, Graph(design))
+        return partial(require_value_of_all, members), partial(require_claim_of_all, members)
+    facts = Facts(design, Graph(design))
+    return partial(require_value, facts), partial(require_claim, facts)
+
+
+def _ruled(agents: int, test: Callable[[Said], str], said: Said) -> tuple[Status, str]:
+    if agents > MAX_AGENTS:
         return "undecided", f"more than {MAX_AGENTS} agents are beyond this checker"
     try:
-        return "accepted", test(facts, said)
+        return "accepted", test(said)
     except Refused as refusal:
         return "refused", str(refusal)
     except Undecided as limit:

@@ -7,6 +7,7 @@ Source: theory, section 2: r_0 = 1, r_n = sum_{j=1}^n abs f(j) r_{n-j}, every te
 from fractions import Fraction
 from functools import lru_cache
 from operator import mul
+from typing import Protocol
 
 from fomas_verify.checker.powers import power
 from fomas_verify.checker.ruling import Undecided
@@ -15,6 +16,19 @@ MAX_SAMPLES = 2**15
 _GUARD = 32
 
 Pair = tuple[int, int]
+
+
+class Memory(Protocol):
+    """The numbers of the memory at one scale, of one alpha or of every alpha between two."""
+
+    def step_response(self, n: int) -> Pair:
+        """Bounds of c_n, n >= 0."""
+
+    def resolvent(self, n: int) -> Pair:
+        """Bounds of r_n, n >= 0."""
+
+    def decay(self, n: int, m: int) -> Pair:
+        """Bounds of c_(n+m) / c_n, n >= 1."""
 
 
 class Kernel:
@@ -48,6 +62,12 @@ class Kernel:
             self._resolvent.append(sum(map(mul, self._weights, reversed(self._resolvent))) >> self.scale)
         return self._resolvent[n], self._resolvent[n] + n * self._missed
 
+    def decay(self, n: int, m: int) -> Pair:
+        """c_(n+m) / c_n. Rigorous."""
+        # As alpha > 2^-64 and there are at most 2^15 samples, c_n > 2^-80: both lower bounds are positive.
+        (first, first_up), (last, last_up) = self.step_response(n), self.step_response(n + m)
+        return (last << self.scale) // first_up, -(-(last_up << self.scale) // first)
+
     def _weight(self, j: int) -> Pair:
         """abs f(j) = 2 j^alpha - (j+1)^alpha - (j-1)^alpha, both ends >= 0."""
         (a, a_up), (b, b_up), (c, c_up) = (self._power(i) for i in (j - 1, j, j + 1))
@@ -70,6 +90,32 @@ class Kernel:
                 (a, a_up), (b, b_up) = self._powers[factor], self._powers[n // factor]
                 self._powers.append((a * b >> width, -(-a_up * b_up >> width)))
         return self._powers[j]
+
+
+class KernelBetween:
+    """The numbers of the memory for every alpha between two: their values at the ends.
+
+    c_n = alpha int_n^(n+1) x^(alpha-1) dx for n >= 1: the derivative of log c_n by alpha is 1/alpha + a mean of log x
+    over [n, n+1], which is positive and increases with n, so c_n and c_(n+1) / c_n do not decrease in alpha.
+    r_n does not increase. For with C, R at one alpha and C', R' at a larger one, C / C' = 1 + sum q_n z^n has q_n <= 0
+    (as in Kaluza's theorem, c'_n being log-convex and c_n / c'_n not increasing). So C R' = (C / C') / (1 - z) does not
+    increase, G = 1/(1-z) - C R' does not decrease, and R - R' = G / C = G (1 - sum b_n z^n) >= 0, as sum b_n = 1.
+    """
+
+    def __init__(self, first: Kernel, last: Kernel) -> None:
+        self.first, self.last = first, last
+
+    def step_response(self, n: int) -> Pair:
+        """c_n, n >= 0. Rigorous."""
+        return self.first.step_response(n)[0], self.last.step_response(n)[1]
+
+    def resolvent(self, n: int) -> Pair:
+        """r_n, n >= 0. Rigorous."""
+        return self.last.resolvent(n)[0], self.first.resolvent(n)[1]
+
+    def decay(self, n: int, m: int) -> Pair:
+        """c_(n+m) / c_n, n >= 1. Rigorous."""
+        return self.first.decay(n, m)[0], self.last.decay(n, m)[1]
 
 
 @lru_cache(maxsize=16)

@@ -12,9 +12,9 @@ from math import ceil
 from operator import itemgetter, mul
 
 from fomas_verify.checker.ball import Ball, deviation, rounding
-from fomas_verify.checker.facts import Facts
+from fomas_verify.checker.loop import Loop
 from fomas_verify.checker.norms import norm_upper
-from fomas_verify.checker.resolvent import MAX_SAMPLES, Kernel, kernel
+from fomas_verify.checker.resolvent import MAX_SAMPLES, Memory
 from fomas_verify.checker.ruling import Undecided
 
 MAX_SAMPLE_WORK = 2**36
@@ -28,8 +28,8 @@ class Step:
     Attributes
     ----------
     rows : of d L: the places of the entries that are not 0, as a getter, and the entries
-    numerator, denominator : a lower bound of mu / d
-    missed : how much larger mu may be, times 2 D >= norm L, at the scale, rounded up
+    numerator, denominator : mu / d, about
+    missed : how far mu may be from that, times a bound of norm L, at the scale, rounded up
     stretch : an upper bound of max(1, sigma) >= norm P, at the scale
     """
 
@@ -46,18 +46,19 @@ class Step:
         for column in ball.columns:
             image = (sum(map(mul, entries, places(column))) for places, entries in self.rows)
             columns.append([x - y * self.numerator // self.denominator for x, y in zip(column, image, strict=True)])
-        error = self.stretch * ball.error + self.missed * ball.frobenius
-        return Ball(columns, ball.exponent, -(-error >> self.scale) + rounding(columns))
+        error = self.stretch * ball.error + self.missed * (ball.size + ball.error)
+        known = None if ball.known is None else -(-self.stretch * ball.known >> self.scale)
+        return Ball(columns, ball.exponent, -(-error >> self.scale) + rounding(columns), known)
 
 
 class Samples:
     """P^k E and Phi_k E for k = 0, 1, 2, ..., one after the other; to go back is to begin again."""
 
-    def __init__(self, facts: Facts, bits: int, start: Ball) -> None:
-        self.agents, self.bits = facts.design.agents, bits
+    def __init__(self, loop: Loop, bits: int, start: Ball) -> None:
+        self.agents, self.bits = loop.graph.agents, bits
         self.start, self.scale = start, bits + GUARD
-        self.kernel: Kernel = kernel(facts.design.alpha, self.scale)
-        self.step = _step(facts, bits)
+        self.kernel: Memory = loop.kernel(self.scale)
+        self.step = _step(loop, bits)
         self._power = self._sample = (0, start)
 
     def power(self, n: int) -> Ball:
@@ -85,24 +86,27 @@ class Samples:
 
     def _plus(self, ball: Ball, lower: int, upper: int) -> Ball:
         """X + r E, for 0 <= r <= 1 between the bounds."""
+        middle = lower + upper >> 1
         columns = [
-            [x + (lower * y >> self.scale) for x, y in zip(*pair, strict=True)]
+            [x + (middle * y >> self.scale) for x, y in zip(*pair, strict=True)]
             for pair in zip(ball.columns, self.start.columns, strict=True)
         ]
-        missed = -(-(upper - lower) * self.start.frobenius >> self.scale)
-        return Ball(columns, ball.exponent, ball.error + self.start.error + missed + rounding(columns))
+        missed = -(-max(upper - middle, middle - lower) * (self.start.size + self.start.error) >> self.scale)
+        known = None if ball.known is None else ball.known + self.start.size
+        error = ball.error + self.start.error + missed + rounding(columns)
+        return Ball(columns, ball.exponent, error, known)
 
 
 @lru_cache(maxsize=4)
-def _step(facts: Facts, bits: int) -> Step:
+def _step(loop: Loop, bits: int) -> Step:
     scale = bits + GUARD
-    mu = facts.mu(scale + 16)
-    first = deviation(facts, bits)
+    graph, mu = loop.graph, loop.mu(scale + 16)
+    first = deviation(loop, bits)
     stretch = max(ceil(norm_upper(first) * Fraction(2) ** (first.exponent + scale)), 1 << scale)
-    missed = (mu.upper - mu.lower) * 2 * facts.graph.degree_max * 2**scale
+    missed = mu.radius * graph.size * 2**scale
     rows = []
-    for row in facts.graph.laplacian:
+    for row in graph.laplacian:
         places = [i for i, entry in enumerate(row) if entry]
         rows.append((itemgetter(*places), tuple(row[i] for i in places)))
-    lower = mu.lower / facts.graph.denominator
-    return Step(tuple(rows), lower.numerator, lower.denominator, ceil(missed), stretch, scale)
+    middle = mu.middle / graph.denominator
+    return Step(tuple(rows), middle.numerator, middle.denominator, ceil(missed), stretch, scale)

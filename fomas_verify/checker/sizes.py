@@ -8,13 +8,14 @@ from math import ceil, floor, isqrt
 from typing import cast
 
 from fomas_verify.checker.decay import require_rate, require_settling
-from fomas_verify.checker.document import Bounds, Design, Peak, Rate, Settling, State, Value
+from fomas_verify.checker.designs import Design, State
 from fomas_verify.checker.facts import Facts, settle
 from fomas_verify.checker.operators import compare_peak, operators
 from fomas_verify.checker.powers import Enclosure, gamma_one_plus, point, power, quotient, square_root
 from fomas_verify.checker.ruling import need, need_that
 from fomas_verify.checker.schur import schur_sign
 from fomas_verify.checker.trajectory import error_columns
+from fomas_verify.checker.value_form import Bounds, Peak, Rate, Settling, Value
 
 SIZES = frozenset({"peak_control", "settling_samples", "settling_time", "rate", "actuator_reach", "limit"})
 

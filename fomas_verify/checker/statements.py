@@ -33,4 +33,6 @@ VALUES = (
     "rate",
     "actuator_reach",
     "limit",
+    "margins",
 )
+MARGINS = ("gain-bound", "memory-inequality", "perron-eigenvalues", "repaired-condition", "control-norm-bound")

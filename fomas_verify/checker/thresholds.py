@@ -9,7 +9,7 @@ from fractions import Fraction
 
 from fomas_verify.checker.facts import Facts
 from fomas_verify.checker.field import Root
-from fomas_verify.checker.powers import Enclosure, point, power, quotient, square_root
+from fomas_verify.checker.powers import Enclosure, point, quotient, second_threshold
 
 
 def sqrt_root(r: Fraction) -> Root:
@@ -40,8 +40,7 @@ def beta_below_second(facts: Facts) -> int | None:
     """The sign of -sqrt(3^alpha - 2^alpha) - beta: of lambda2 - (1 + sqrt(3^alpha - 2^alpha)) / mu."""
 
     def gap(bits: int) -> Enclosure:
-        two, three = (power(Fraction(base), facts.design.alpha, bits) for base in (2, 3))
-        root = square_root(Enclosure(three.lower - two.upper, three.upper - two.lower), bits)
+        root = second_threshold(facts.design.alpha, bits)
         return quotient(Enclosure(1 + root.lower, 1 + root.upper), facts.mu(bits))
 
     return facts.compare_lambda2(gap)

@@ -8,9 +8,9 @@ from math import isqrt
 from operator import mul
 
 from fomas_verify.checker.ball import Ball, fitted
-from fomas_verify.checker.document import State
-from fomas_verify.checker.facts import Facts
+from fomas_verify.checker.designs import State
 from fomas_verify.checker.graph import Graph, Rows, common_denominator
+from fomas_verify.checker.loop import Loop
 from fomas_verify.checker.samples import GUARD, Samples
 
 
@@ -24,10 +24,10 @@ def error_columns(graph: Graph, x0: State) -> tuple[Rows, int]:
 class Trajectory:
     """The samples from one x_0 with L x_0 != 0, at one precision."""
 
-    def __init__(self, facts: Facts, x0: State, bits: int) -> None:
-        columns, _ = error_columns(facts.graph, x0)
+    def __init__(self, loop: Loop, x0: State, bits: int) -> None:
+        columns, _ = error_columns(loop.graph, x0)
         start = fitted(Ball(columns, 0, 0), bits + GUARD)
-        self.samples = Samples(facts, bits, start)
+        self.samples = Samples(loop, bits, start)
         square = sum(sum(map(mul, column, column)) for column in columns)
         shift = -2 * start.exponent
         self.size = isqrt(square << shift if shift >= 0 else square >> -shift)
@@ -52,6 +52,6 @@ def _compare(ball: Ball, lower: int, upper: int) -> int | None:
 
 
 @lru_cache(maxsize=4)
-def trajectory(facts: Facts, x0: State, bits: int) -> Trajectory:
+def trajectory(loop: Loop, x0: State, bits: int) -> Trajectory:
     """The samples from x_0 at a precision, one for all who ask."""
-    return Trajectory(facts, x0, bits)
+    return Trajectory(loop, x0, bits)

@@ -7,11 +7,12 @@ from collections.abc import Callable
 from fractions import Fraction
 from typing import cast
 
-from fomas_verify.checker.document import Bounds, Value
 from fomas_verify.checker.facts import Facts, compare
+from fomas_verify.checker.margins import require_gain_margin, require_norm_margin, require_order_margin
 from fomas_verify.checker.ruling import need, need_that
 from fomas_verify.checker.sizes import SIZES, require_size
 from fomas_verify.checker.thresholds import beta_below, sigma_below
+from fomas_verify.checker.value_form import Bounds, GainMargin, NormMargin, OrderMargin, Value
 
 _UNDER_ASSUMPTION = frozenset({"lambda2", "beta", "sigma"})
 
@@ -27,6 +28,12 @@ def require_value(facts: Facts, value: Value) -> str:
         If that was not decided within the work allowed.
     """
     name = value.name
+    if isinstance(value, GainMargin):
+        return require_gain_margin(facts, value)
+    if isinstance(value, OrderMargin):
+        return require_order_margin(facts, value)
+    if isinstance(value, NormMargin):
+        return require_norm_margin(facts, value)
     if name in SIZES:
         return require_size(facts, value)
     bounds = cast(Bounds, value)

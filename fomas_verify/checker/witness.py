@@ -174,6 +174,8 @@ def _rationals(value: object, path: str, length: int) -> tuple[Fraction, ...]:
 
 
 def _excess(value: object, path: str, agents: int) -> Witness:
+    if isinstance(value, dict) and "power" in value:
+        return _power(value, path)
     given = fields(value, path, ("x0", "k"))
     return Excess(_rationals(given["x0"], f"{path}.x0", agents), count(given["k"], f"{path}.k", 1))
 
@@ -188,6 +190,8 @@ def _lemma(value: object, path: str, _: int) -> Witness:
 
 
 def _bounded(value: object, path: str, agents: int) -> Witness:
+    if value == {}:
+        return Nothing()
     if not isinstance(value, dict) or "lambda_max_upper" not in value:
         return _lemma(value, path, agents)
     names = ("mu", "lambda_max_upper")
@@ -196,11 +200,8 @@ def _bounded(value: object, path: str, agents: int) -> Witness:
     return LargestBound(mu, lambda_max_upper)
 
 
-def _bounded_from_x0(value: object, path: str, agents: int) -> Witness:
-    return Nothing() if value == {} else _bounded(value, path, agents)
-
-
-def _triangle(value: object, path: str, agents: int) -> Triangle:
+def read_triangle(value: object, path: str, agents: int) -> Triangle:
+    """A symmetric matrix of agents - 1 rows, its form checked."""
     rows = array(value, path, f"a lower triangle of {agents - 1} rows", agents - 1)
     return tuple(
         tuple(
@@ -213,15 +214,24 @@ def _triangle(value: object, path: str, agents: int) -> Triangle:
 
 def _stable(value: object, path: str, agents: int) -> Witness:
     given = fields(value, path, ("mu", "Q"))
-    return Lyapunov(rational(given["mu"], f"{path}.mu"), _triangle(given["Q"], f"{path}.Q", agents))
+    return Lyapunov(rational(given["mu"], f"{path}.mu"), read_triangle(given["Q"], f"{path}.Q", agents))
 
 
 def _unstable(value: object, path: str, agents: int) -> Witness:
     if isinstance(value, dict) and "Y" in value:
         given = fields(value, path, ("mu", "Y"))
-        return Persistence(rational(given["mu"], f"{path}.mu"), _triangle(given["Y"], f"{path}.Y", agents))
+        return Persistence(rational(given["mu"], f"{path}.mu"), read_triangle(given["Y"], f"{path}.Y", agents))
+    return _power(value, path)
+
+
+def _power(value: object, path: str) -> Witness:
     given = fields(value, path, ("mu", "power"))
-    return Power(rational(given["mu"], f"{path}.mu"), count(given["power"], f"{path}.power", 1, 2**256))
+    return Power(rational(given["mu"], f"{path}.mu"), read_power(given["power"], f"{path}.power"))
+
+
+def read_power(value: object, path: str) -> int:
+    """The power of a matrix: from 1 to 2^256."""
+    return count(value, path, 1, 2**256)
 
 
 def _contraction(value: object, path: str, _: int) -> Witness:
@@ -258,7 +268,7 @@ _READERS: dict[tuple[str, str], _Reader] = {
     ("repaired-condition", "refuted"): _vector,
     ("control-norm-bound", "proved"): _bounded,
     ("control-norm-bound", "refuted"): _excess,
-    ("trajectory-norm-bound", "proved"): _bounded_from_x0,
+    ("trajectory-norm-bound", "proved"): _bounded,
     ("trajectory-norm-bound", "refuted"): _excess_at,
 }
 

@@ -13,11 +13,12 @@ from typing import Any
 from fomas_verify.claims import repaired_condition
 from fomas_verify.claims.verdict import Decision, Verdict, undecided
 from fomas_verify.enclosure.digits import decimal
-from fomas_verify.enclosure.interval import short_dyadic
+from fomas_verify.enclosure.interval import Interval, short_dyadic
+from fomas_verify.spectrum.boxes import beta_at_most_threshold, sigma_at_most_threshold, tail_over
 from fomas_verify.spectrum.control import state_above
 from fomas_verify.spectrum.loop import Loop
 from fomas_verify.spectrum.precision import SAMPLE_PRECISIONS
-from fomas_verify.spectrum.samples import Search, first_above, search
+from fomas_verify.spectrum.samples import Box, Search, first_above, search
 from fomas_verify.spectrum.stability import Side, stability
 
 ID = "control-norm-bound"
@@ -33,7 +34,9 @@ MEANING = (
 def decide(loop: Loop) -> Decision:
     """Whether the peak of the control is its first value, as to the truth."""
     for bits in SAMPLE_PRECISIONS:
-        if (witness := symmetric_witness(loop, bits)) is not None:
+        if loop.sigma(bits).upper <= loop.threshold(bits).lower:
+            return Decision(Verdict.PROVED, {}, "sigma <= 2^alpha - 1: the repaired Theorem 1")
+        if (witness := symmetric_witness(loop, the_point(loop, bits), bits)) is not None:
             return Decision(Verdict.PROVED, witness, "symmetric graph, beta <= 2^alpha - 1 and mu lambda_N <= 2")
         found = examine(loop, bits)
         if found.above is not None and (x0 := state_above(loop, found.above, bits)) is not None:
@@ -45,6 +48,8 @@ def decide(loop: Loop) -> Decision:
             return Decision(Verdict.PROVED, {"samples": tail.last, "powers": tail.powers}, reason)
         if found.peak is None:
             break
+    if "power" in (growth := stability(loop).witness):
+        return Decision(Verdict.REFUTED, growth, "norm u_k grows without bound", MEANING, remedy(loop))
     return undecided(bits, "the samples within the work allowed do not tell whether every norm Phi_k is at most 1")
 
 
@@ -55,13 +60,28 @@ def examine(loop: Loop, bits: int) -> Search:
     return Search(None, first_above(loop, bits))
 
 
-def symmetric_witness(loop: Loop, bits: int) -> dict[str, Any] | None:
-    """What shows it on a symmetric graph at this precision: ``mu lambda_N <= 2`` in short numbers, and beta below
-    the threshold.
+def holds_over(loop: Loop, box: Box, bits: int) -> dict[str, Any] | None:
+    """The witness that it holds for every (alpha, mu) of a box; None where that was not seen. Rigorous."""
+    if sigma_at_most_threshold(loop, box, bits):
+        return {}
+    if (witness := symmetric_witness(loop, box, bits)) is not None:
+        return witness
+    tail = tail_over(loop, box, bits)
+    return None if tail is None else {"samples": tail.last, "powers": tail.powers}
+
+
+def the_point(loop: Loop, bits: int) -> Box:
+    """The loop's own alpha and mu."""
+    return Box(Interval.exactly(loop.design.alpha), loop.mu(bits))
+
+
+def symmetric_witness(loop: Loop, box: Box, bits: int) -> dict[str, Any] | None:
+    """What shows it on a symmetric graph at this precision, all over a box: ``mu lambda_N <= 2`` in short numbers, and
+    beta below the threshold.
     """
-    if loop.laplacian != loop.laplacian.transpose() or loop.beta(bits).upper > loop.threshold(bits).lower:
+    if loop.laplacian != loop.laplacian.transpose() or not beta_at_most_threshold(loop, box, bits):
         return None
-    mu, largest = loop.mu(bits).upper, loop.lambda_max(bits).upper
+    mu, largest = box.mu.upper, loop.lambda_max(bits).upper
     room = (2 / (mu * largest) - 1) / 3
     if room < 0:
         return None

@@ -9,15 +9,20 @@ only at alpha = 1/2 (theory, section 7), where it is decided exactly.
 from __future__ import annotations
 
 from fractions import Fraction
+from typing import Any
 
 from fomas_verify.claims.remedy import lower_mu, raise_mu
 from fomas_verify.claims.verdict import Decision, Verdict, undecided
 from fomas_verify.enclosure.digits import decimal, rounded_up
 from fomas_verify.enclosure.interval import Interval
-from fomas_verify.enclosure.real import log2
+from fomas_verify.enclosure.real import log2, square_root
 from fomas_verify.exact.polynomial import divides, polynomial, scaled_roots
+from fomas_verify.kernel.memory import step_response
+from fomas_verify.spectrum import margins
+from fomas_verify.spectrum.boxes import beta_at_most_threshold, beta_over
 from fomas_verify.spectrum.loop import Loop
 from fomas_verify.spectrum.precision import PRECISIONS
+from fomas_verify.spectrum.samples import Box
 
 ID = "memory-inequality"
 STATEMENT = "beta^(k+1) + sum_{l=1}^{k+1} abs f(l) <= 1 for every k >= 0 (inequality (14) [eqT2])"
@@ -41,20 +46,29 @@ def decide(loop: Loop) -> Decision:
         if beta.lower > upper.upper:
             return _refuted_at_first_sample(loop, beta, upper, bits)
         if beta.upper < lower.lower:
-            return _refuted_at_second_sample(loop, beta, lower, bits)
+            return _refuted_at_second_sample(loop, beta, lower)
         if beta.overlaps(upper) and _is_tie(loop, bits):
             return Decision(Verdict.PROVED, {}, f"beta = 2^alpha - 1 = {decimal(upper, 20)} exactly: equality at k = 0")
     return undecided(bits, f"beta = {decimal(beta, 20)} and 2^alpha - 1 = {decimal(upper, 20)}")
 
 
+def holds_over(loop: Loop, box: Box, bits: int) -> dict[str, Any] | None:
+    """The witness that it holds for every (alpha, mu) of a box; None where that was not seen. Rigorous.
+
+    ``c_1`` and ``c_2`` increase with alpha, so the least alpha decides.
+    """
+    lower = -square_root(step_response(box.alpha.lower, 2, bits), bits)
+    holds = beta_at_most_threshold(loop, box, bits) and beta_over(loop, box, bits).lower >= lower.upper
+    return {} if holds else None
+
+
 def _refuted_at_first_sample(loop: Loop, beta: Interval, threshold: Interval, bits: int) -> Decision:
-    least = (1 - threshold) / loop.lambda2(bits)
     return Decision(
         Verdict.REFUTED,
         {"k": 0},
         f"beta = {decimal(beta, 20)} > 2^alpha - 1 = {decimal(threshold, 20)}: it fails at k = 0",
         meaning=FIRST,
-        remedy=_raise_or_none(loop, least, bits),
+        remedy=_raise_or_none(loop, margins.memory_inequality(loop).lower, bits),
     )
 
 
@@ -73,14 +87,13 @@ def _raise_or_none(loop: Loop, least: Interval, bits: int) -> str:
     )
 
 
-def _refuted_at_second_sample(loop: Loop, beta: Interval, lower: Interval, bits: int) -> Decision:
-    most = (1 - lower) / loop.lambda2(bits)
+def _refuted_at_second_sample(loop: Loop, beta: Interval, lower: Interval) -> Decision:
     return Decision(
         Verdict.REFUTED,
         {"k": 1},
         f"beta = {decimal(beta, 20)} < -sqrt(3^alpha - 2^alpha) = {decimal(lower, 20)}: it fails at k = 1",
         meaning=SECOND,
-        remedy=lower_mu(loop, most.lower),
+        remedy=lower_mu(loop, margins.memory_inequality(loop).inner[1]),
     )
 
 

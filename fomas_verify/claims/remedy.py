@@ -8,12 +8,13 @@ from fractions import Fraction
 
 from fomas_verify.enclosure.digits import rounded_down, rounded_up
 from fomas_verify.enclosure.interval import Interval
-from fomas_verify.enclosure.real import power_of
-from fomas_verify.kernel.memory import one_step_weight
+from fomas_verify.enclosure.real import log2, power_of
 from fomas_verify.spectrum.loop import Loop
 
 DIGITS = 6
-BITS = 128
+BITS = 192
+LARGEST = 4096
+"""No factor of h is told beyond ``2^4096``, where alpha is near 0."""
 
 
 def raise_mu(loop: Loop, least: Fraction, *, below: Fraction | None = None) -> str:
@@ -24,17 +25,37 @@ def raise_mu(loop: Loop, least: Fraction, *, below: Fraction | None = None) -> s
     return _change(loop, least, "raise", "to at least", up=True, digits=digits)
 
 
-def lower_mu(loop: Loop, most: Fraction, *, strict: bool = False) -> str:
-    """Words for ``mu <= most``, or ``mu < most``."""
-    return _change(loop, most, "lower", "below" if strict else "to at most", up=False)
+def lower_mu(loop: Loop, most: Fraction, *, strict: bool = False, above: Fraction | None = None) -> str:
+    """Words for ``mu <= most``, or ``mu < most``, with as many digits as it takes to stay above a bound."""
+    digits = DIGITS
+    while above is not None and Fraction(rounded_down(most, digits - 2)) <= above:
+        digits *= 2
+    return _change(loop, most, "lower", "below" if strict else "to at most", up=False, digits=digits)
 
 
-def _change(loop: Loop, bound: Fraction, verb: str, word: str, *, up: bool, digits: int = DIGITS) -> str:
-    design, rounded = loop.design, rounded_up if up else rounded_down
+def in_users_terms(loop: Loop, end: Interval) -> dict[str, tuple[Interval, Interval]]:
+    """What makes mu equal to the end, each number moved alone: its factor and its value.
+
+    Of gamma and h where the design gives both, of mu otherwise; h is absent where its factor is beyond all bounds.
+    """
+    design = loop.design
+    factor = end / loop.mu(BITS)
     if design.gamma is None or design.h is None:
-        return f"{verb} mu {word} {rounded(bound, digits)}"
-    weight = one_step_weight(design.alpha, design.h, BITS)
-    gamma = Interval.exactly(bound) / weight
-    h = power_of(gamma / design.gamma, 1 / design.alpha, BITS) * design.h
-    gamma_text, h_text = (rounded(x.upper if up else x.lower, digits) for x in (gamma, h))
-    return f"{verb} gamma {word} {gamma_text} (with h as it is), or h {word} {h_text} (with gamma as it is)"
+        return {"mu": (factor, end)}
+    found = {"gamma": (factor, factor * design.gamma)}
+    if factor.lower > 0 and abs(log2(factor, 64).upper / design.alpha) < LARGEST:
+        of_h = power_of(factor, 1 / design.alpha, BITS)
+        found["h"] = (of_h, of_h * design.h)
+    return found
+
+
+def _change(loop: Loop, bound: Fraction, verb: str, word: str, *, up: bool, digits: int) -> str:
+    rounded = rounded_up if up else rounded_down
+    moved = {
+        name: rounded(value.upper if up else value.lower, digits)
+        for name, (_, value) in in_users_terms(loop, Interval.exactly(bound)).items()
+    }
+    if "gamma" not in moved:
+        return f"{verb} mu {word} {moved['mu']}"
+    or_h = f", or h {word} {moved['h']} (with gamma as it is)" if "h" in moved else ""
+    return f"{verb} gamma {word} {moved['gamma']} (with h as it is){or_h}"

@@ -7,8 +7,8 @@ from pathlib import Path
 import click
 
 from fomas_verify.cli.options import design_argument, digits_option
-from fomas_verify.design import read_design
-from fomas_verify.prover import Proof, prove
+from fomas_verify.design import Design, DesignError, UncertainDesign, read_any
+from fomas_verify.prover import Proof, UncertainProof, prove, prove_uncertain
 
 
 @click.command("prove")
@@ -26,9 +26,7 @@ def command(
     \b
     Example:  verify-design prove examples/paper.toml -o certificate.json --horizon 1000
     """
-    proof = prove(read_design(design), horizon=horizon, digits=digits)
-    if coq is not None:
-        _write_coq(proof, coq)
+    proof = _prove(read_any(design), horizon, digits, coq)
     if output is not None:
         from fomas_verify.report.files import write_whole
 
@@ -36,10 +34,24 @@ def command(
     if as_json:
         click.echo(proof.certificate(), nl=False)
     else:
-        from fomas_verify.report.text import proof_text
+        from fomas_verify.report.text import proof_text, uncertain_text
 
-        click.echo(proof_text(proof))
+        click.echo(proof_text(proof) if isinstance(proof, Proof) else uncertain_text(proof))
     return proof.exit_status
+
+
+def _prove(
+    design: Design | UncertainDesign, horizon: int | None, digits: int, coq: Path | None
+) -> Proof | UncertainProof:
+    if isinstance(design, Design):
+        proof = prove(design, horizon=horizon, digits=digits)
+        if coq is not None:
+            _write_coq(proof, coq)
+        return proof
+    for option, value in {"--horizon": horizon, "--coq": coq}.items():
+        if value is not None:
+            raise DesignError(f"{design.least.source}: {option} is not supported yet with an interval")
+    return prove_uncertain(design)
 
 
 def _write_coq(proof: Proof, folder: Path) -> None:

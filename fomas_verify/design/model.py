@@ -1,10 +1,12 @@
 """A design: what is to be decided about, in exact numbers."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import TypeAlias
 
 from fomas_verify.design.errors import DesignError
+from fomas_verify.enclosure.interval import Interval
 from fomas_verify.network import Digraph
 
 State: TypeAlias = tuple[tuple[Fraction, ...], ...]
@@ -79,3 +81,35 @@ class Design:
                 raise DesignError(f"{self.source}: {missing}: {command} needs mu, or gamma and h; got no {missing}")
         elif {"gamma": self.gamma, "h": self.h, "x0": self.x0, "horizon": self.horizon}[key] is None:
             raise DesignError(f"{self.source}: {key}: {command} needs {key}; got no {key}")
+
+
+@dataclass(frozen=True)
+class UncertainDesign:
+    """A design of which some numbers lie anywhere in an interval; plant and controller share the alpha of each member.
+
+    Attributes
+    ----------
+    least : Design
+        The member with the lower end of every interval; whatever is not an interval is common to all members.
+    ranges : mapping of str to Interval
+        The intervals, at least one, under `"alpha"`, `"gamma"`, `"mu"`, `"h"`.
+    """
+
+    least: Design
+    ranges: Mapping[str, Interval]
+
+    def range_of(self, key: str) -> Interval | None:
+        """The interval of `"alpha"`, `"gamma"`, `"mu"` or `"h"`, of one number where it is certain, None where it is
+        absent.
+        """
+        if key in self.ranges:
+            return self.ranges[key]
+        x = {"alpha": self.least.alpha, "gamma": self.least.gamma, "mu": self.least.mu, "h": self.least.h}[key]
+        return None if x is None else Interval.exactly(x)
+
+    def member(self, alpha: Fraction, share: Fraction) -> Design:
+        """The member with this alpha and with gamma, mu and h at this share of the way through their intervals."""
+        gamma, mu, h = (
+            None if x is None else x.lower + share * x.width for x in map(self.range_of, ("gamma", "mu", "h"))
+        )
+        return replace(self.least, alpha=alpha, gamma=gamma, mu=mu, h=h)

@@ -3,7 +3,7 @@
 Source: the section on the design file in the README.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from fractions import Fraction
 from os import PathLike
 from pathlib import Path
@@ -12,9 +12,10 @@ from typing import Final
 from fomas_verify.design.claim_ids import CLAIM_IDS, DEFAULT_REQUIRE
 from fomas_verify.design.document import Format, format_of, parse_document, read_text, source_name
 from fomas_verify.design.errors import DesignError
-from fomas_verify.design.fields import Place, choice, count, number, positive, sequence, table
+from fomas_verify.design.fields import Place, choice, count, number, positive, sequence, shown, table
 from fomas_verify.design.graph_table import read_graph
-from fomas_verify.design.model import Design, State
+from fomas_verify.design.model import Design, State, UncertainDesign
+from fomas_verify.enclosure.interval import Interval
 
 FORMAT: Final = "fomas-design/1"
 MAX_HORIZON: Final = 10**9
@@ -45,6 +46,13 @@ def read_design(path: str | PathLike[str]) -> Design:
     """
     text = read_text(path)
     return parse_design(text, format_of(path, text), source_name(path))
+
+
+def read_any(path: str | PathLike[str]) -> Design | UncertainDesign:
+    """Read a design file in which alpha, gamma, mu and h may be intervals; otherwise as `read_design`."""
+    text = read_text(path)
+    source = source_name(path)
+    return any_from_mapping(parse_document(text, format_of(path, text), source), source)
 
 
 def parse_design(text: str, format_: Format, source: str) -> Design:
@@ -79,6 +87,15 @@ def design_from_mapping(mapping: Mapping[str, object], source: str = "design") -
     >>> design_from_mapping({"alpha": "9/10", "mu": "0.1", "graph": graph}).mu
     Fraction(1, 10)
     """
+    found = any_from_mapping(mapping, source)
+    if isinstance(found, UncertainDesign):
+        where = Place(source).key(next(iter(found.ranges)))
+        raise DesignError(f"{where}: expected a number, got an interval: only prove, check and gate take one")
+    return found
+
+
+def any_from_mapping(mapping: Mapping[str, object], source: str = "design") -> Design | UncertainDesign:
+    """Read a design in which alpha, gamma, mu and h may be intervals; otherwise as `design_from_mapping`."""
     place = Place(source)
     top = table(mapping, place, (*_KEYS, *_UNSUPPORTED))
     for key in _UNSUPPORTED:
@@ -88,17 +105,23 @@ def design_from_mapping(mapping: Mapping[str, object], source: str = "design") -
         choice(top["format"], place.key("format"), "the format of a design", (FORMAT,))
     if "gamma" in top and "mu" in top:
         raise DesignError(f"{place.key('mu')}: expected either gamma or mu, got both")
-    alpha = _alpha(top.get("alpha"), place.key("alpha"))
-    gamma, mu, h = (_gain(top, key, place) for key in ("gamma", "mu", "h"))
+    gains = [key for key in ("gamma", "mu", "h") if key in top]
+    numbers = {"alpha": _number_or_interval(top.get("alpha"), place.key("alpha"), _alpha)}
+    numbers |= {key: _number_or_interval(top[key], place.key(key), positive) for key in gains}
+    ranges = {key: x for key, x in numbers.items() if not x.is_exact}
+    for key in ("horizon", "settle_to"):
+        if ranges and key in top:
+            raise place.key(key).unsupported(f"with an interval for {next(iter(ranges))} this key is")
     if "graph" not in top:
         raise place.key("graph").expected("a table", None)
     graph = read_graph(top["graph"], place.key("graph"))
-    return Design(
+    least = {key: x.lower for key, x in numbers.items()}
+    design = Design(
         name=_name(top, place),
-        alpha=alpha,
-        gamma=gamma,
-        mu=mu,
-        h=h,
+        alpha=least["alpha"],
+        gamma=least.get("gamma"),
+        mu=least.get("mu"),
+        h=least.get("h"),
         graph=graph,
         x0=_initial_state(top["x0"], place.key("x0"), graph.agents) if "x0" in top else None,
         horizon=count(top["horizon"], place.key("horizon"), 0, MAX_HORIZON) if "horizon" in top else None,
@@ -107,28 +130,27 @@ def design_from_mapping(mapping: Mapping[str, object], source: str = "design") -
         source=source,
         notes=_notes(top),
     )
+    return UncertainDesign(design, ranges) if ranges else design
+
+
+def _number_or_interval(value: object, place: Place, read: Callable[[object, Place], Fraction]) -> Interval:
+    """A number, or an interval of two of its kind."""
+    if not isinstance(value, list | tuple):
+        return Interval.exactly(read(value, place))
+    ends = sequence(value, place, "a number, or an interval of two", 2)
+    lower, upper = (read(x, place.item(i)) for i, x in enumerate(ends))
+    if lower >= upper:
+        raise place.item(1).expected(f"a number above {shown(lower)}, where the interval begins", upper)
+    return Interval(lower, upper)
 
 
 def _alpha(value: object, place: Place) -> Fraction:
-    _refuse_interval(value, place)
     alpha = number(value, place)
     if not 0 < alpha < 1:
         raise place.expected("a number between 0 and 1, both excluded", value)
     if alpha.denominator >= _ALPHA_LIMIT:
         raise place.expected("numerator and denominator below 2^64", value)
     return alpha
-
-
-def _gain(top: Mapping[str, object], key: str, place: Place) -> Fraction | None:
-    if key not in top:
-        return None
-    _refuse_interval(top[key], place.key(key))
-    return positive(top[key], place.key(key))
-
-
-def _refuse_interval(value: object, place: Place) -> None:
-    if isinstance(value, list | tuple) and len(value) == 2:
-        raise place.unsupported("an interval is")
 
 
 def _name(top: Mapping[str, object], place: Place) -> str:

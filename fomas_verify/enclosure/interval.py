@@ -29,6 +29,11 @@ class Interval:
         return self.lower == self.upper
 
     @property
+    def ends(self) -> tuple[Fraction, Fraction]:
+        """Both ends."""
+        return self.lower, self.upper
+
+    @property
     def mid(self) -> Fraction:
         """The middle."""
         return (self.lower + self.upper) / 2

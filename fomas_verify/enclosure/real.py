@@ -14,6 +14,8 @@ from flint import arb, ctx, fmpq
 
 from fomas_verify.enclosure.interval import Interval
 
+Ball = arb
+
 
 @contextmanager
 def working_precision(bits: int) -> Iterator[None]:

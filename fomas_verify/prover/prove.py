@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -16,6 +16,7 @@ from fomas_verify.enclosure.interval import Interval
 from fomas_verify.enclosure.reference import DisagreementError, approx_gain_and_threshold, must_agree
 from fomas_verify.exact.errors import FomasError
 from fomas_verify.kernel.horizon import Horizon, check_horizon
+from fomas_verify.prover.margins import Margins, entries, margins
 from fomas_verify.prover.sizes import Sizes, measure
 from fomas_verify.spectrum.loop import Loop
 from fomas_verify.spectrum.stability import Side, stability
@@ -39,6 +40,7 @@ class Proof:
     loop: Loop
     values: Mapping[str, Interval]
     sizes: Sizes
+    margins: Margins
     decisions: Mapping[str, Decision]
     horizon: Horizon | None
     digits: int
@@ -46,10 +48,7 @@ class Proof:
     @property
     def exit_status(self) -> int:
         """0 every required claim is proved, 1 one is refuted or inapplicable, 3 one is undecided."""
-        verdicts = [self.decisions[name].verdict for name in self.design.require]
-        if any(v in (Verdict.REFUTED, Verdict.INAPPLICABLE) for v in verdicts):
-            return 1
-        return 3 if Verdict.UNDECIDED in verdicts else 0
+        return exit_status_of(self.design.require, self.decisions)
 
     def certificate(self) -> str:
         """The certificate's canonical text."""
@@ -59,11 +58,22 @@ class Proof:
 
     def value_entries(self) -> dict[str, dict[str, Any]]:
         """The values as the certificate writes them, in its order."""
-        return {name: {"lower": x.lower, "upper": x.upper} for name, x in self.values.items()} | self.sizes.entries()
+        found = {name: {"lower": x.lower, "upper": x.upper} for name, x in self.values.items()} | self.sizes.entries()
+        return found | ({"margins": room} if (room := entries(self.margins)) else {})
 
 
-def prove(design: Design, *, horizon: int | None = None, digits: int = DEFAULT_DIGITS) -> Proof:
-    """Decide every claim about a design.
+def exit_status_of(require: Sequence[str], decisions: Mapping[str, Decision]) -> int:
+    """0 every required claim is proved, 1 one is refuted or inapplicable, 3 one is undecided."""
+    verdicts = [decisions[name].verdict for name in require]
+    if any(v in (Verdict.REFUTED, Verdict.INAPPLICABLE) for v in verdicts):
+        return 1
+    return 3 if Verdict.UNDECIDED in verdicts else 0
+
+
+def prove(
+    design: Design, *, horizon: int | None = None, digits: int = DEFAULT_DIGITS, only: Collection[str] | None = None
+) -> Proof:
+    """Decide every claim about a design, or only some.
 
     Parameters
     ----------
@@ -73,6 +83,9 @@ def prove(design: Design, *, horizon: int | None = None, digits: int = DEFAULT_D
         Check (14) also at the samples k = 0..horizon, term by term; the design's own horizon by default.
     digits : int
         Significant decimal digits of the values, at least 20.
+    only : collection of str, optional
+        Ids of the claims to decide; then no sizes and no margins are measured. A horizon is checked with
+        memory-inequality only.
 
     Returns
     -------
@@ -90,18 +103,19 @@ def prove(design: Design, *, horizon: int | None = None, digits: int = DEFAULT_D
     loop = Loop(design)
     values = enclose_values(loop, digits)
     _compare_with_mpmath(design, values, digits)
-    measured = measure(loop, decided_stable=stability(loop).side is Side.INSIDE)
+    measured = Sizes() if only is not None else measure(loop, decided_stable=stability(loop).side is Side.INSIDE)
     decisions = {
         claim.ID: claim.decide(loop) if loop.assumption1 or claim.ID in ON_ANY_GRAPH else inapplicable()
         for claim in CLAIMS
-        if claim is not trajectory_norm_bound or design.x0 is not None
+        if (only is None or claim.ID in only) and (claim is not trajectory_norm_bound or design.x0 is not None)
     }
     samples = design.horizon if horizon is None else horizon
     seen = None
-    if samples is not None and loop.assumption1:
+    if samples is not None and loop.assumption1 and "memory-inequality" in decisions:
         seen = check_horizon(design.alpha, loop.beta(_bits(digits)), samples, digits)
         compare_with_closed_form(seen, decisions["memory-inequality"])
-    return Proof(design, loop, values, measured, decisions, seen, digits)
+    room = {} if only is not None else margins(loop, decisions)
+    return Proof(design, loop, values, measured, room, decisions, seen, digits)
 
 
 def _bits(digits: int) -> int:

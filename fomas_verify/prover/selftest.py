@@ -13,6 +13,7 @@ from fractions import Fraction
 from fomas_verify.enclosure.digits import decimal
 from fomas_verify.enclosure.interval import Interval
 from fomas_verify.enclosure.real import (
+    Ball,
     gamma_function,
     log2,
     power,
@@ -105,7 +106,7 @@ def logarithm() -> bool:
 
 def series() -> bool:
     """``1/(1 - z) = 1 + z + z^2 + ...``."""
-    ones = inverse_series([Interval.exactly(1), Interval.exactly(-1), *[Interval.exactly(0)] * 6], BITS)
+    ones = inverse_series([Ball(x) for x in (1, -1, 0, 0, 0, 0, 0, 0)], BITS)
     return all(x.contains(Fraction(1)) and x.width < THIN for x in ones)
 
 

@@ -27,8 +27,8 @@ class Sizes:
     """What was measured; None where a thing does not exist for the design, or was not reached within the work allowed.
 
     ``peak`` is ``sup_k norm Phi_k`` on 1perp, ``reach`` bounds ``sup_k norm u_k`` for the given x_0 by ``peak gamma
-    norm(L x_0)``, ``limit`` is the mean of x_0, a number for each component, ``overshoot`` bounds ``norm(x(t) - x(t_k))`` inside the sampling interval k, for every k, by ``2 m
-    reach``.
+    norm(L x_0)``, ``limit`` is the mean of x_0, a number for each component, ``overshoot`` bounds
+    ``norm(x(t) - x(t_k))`` inside the sampling interval k, for every k, by ``2 m reach``.
     """
 
     peak: Peak | None = None

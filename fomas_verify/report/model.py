@@ -19,6 +19,8 @@ from fomas_verify.report.checked import Checked
 from fomas_verify.report.claim_view import Change, ClaimView, changes, claim_views
 from fomas_verify.report.graph_drawing import draw_graph, one_weight, shows_weights
 from fomas_verify.report.latex_text import Tex
+from fomas_verify.report.margin_view import binding, margin_lines
+from fomas_verify.report.math_text import sentence
 from fomas_verify.report.memory_figure import MemoryFigure, memory_figure
 from fomas_verify.report.spectrum_view import Spectrum, spectrum_view
 from fomas_verify.spectrum.loop import Loop
@@ -76,6 +78,8 @@ class ReportModel:
     changes: tuple[Change, ...]
     spectrum: Spectrum
     memory: MemoryFigure | None
+    margins: tuple[tuple[str, Tex], ...]
+    binding: Tex
     proof: Proof
     reproduction: Reproduction
 
@@ -105,6 +109,8 @@ def report_model(proof: Proof, certificate: str, answer: Checked, command: str) 
         changes=tuple(changes(claims)),
         spectrum=spectrum_view(loop),
         memory=memory_figure(loop),
+        margins=tuple((name, sentence(words)) for name, words in margin_lines(proof)),
+        binding=sentence(binding(proof)),
         proof=proof,
         reproduction=_reproduction(design, certificate, answer, command),
     )

@@ -3,24 +3,27 @@
 from __future__ import annotations
 
 import textwrap
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 
 from fomas_verify.claims.registry import CLAIMS
 from fomas_verify.claims.verdict import Decision, Verdict
 from fomas_verify.design import Design
-from fomas_verify.enclosure.digits import decimal
+from fomas_verify.enclosure.digits import decimal, rounded_down, rounded_up
 from fomas_verify.enclosure.interval import Interval
 from fomas_verify.enclosure.roots import Root, root_of
 from fomas_verify.exact.rational import format_rational
 from fomas_verify.kernel.horizon import Horizon
-from fomas_verify.prover import Proof
+from fomas_verify.prover import Proof, UncertainProof
 from fomas_verify.prover.sizes import Sizes
+from fomas_verify.report.margin_view import binding, margin_lines
 from fomas_verify.spectrum.stability import Side, stability
 
 WIDTH = 120
 DIGITS = 30
 SHOWN_EIGENVALUES = 24
 SHOWN_ENTRIES = 12
+NAME_WIDTH = max(len(claim.ID) for claim in CLAIMS)
 
 NAMES = {
     "mu": "mu = gamma h^alpha / Gamma(alpha+1)",
@@ -34,14 +37,36 @@ NAMES = {
 
 def proof_text(proof: Proof) -> str:
     """The verdict table, the values, the spectrum, what a refutation means, and how it ends."""
-    parts = [_heading(proof.design), _verdicts(proof), _values(proof), _spectrum(proof)]
+    parts = [_heading(proof.design), _verdicts(proof.decisions, proof.design.require), _values(proof), _spectrum(proof)]
     if proof.sizes.rate is not None:
         parts.append(_sizes(proof.sizes))
+    if proof.margins:
+        parts.append(_margins(proof))
     if proof.horizon is not None:
         parts.append(_horizon(proof))
     parts += [_refutation(name, x) for name, x in proof.decisions.items() if x.verdict is Verdict.REFUTED]
-    parts.append(_ending(proof))
+    parts.append(_ending(proof.decisions, proof.design.require))
     return "\n".join(parts)
+
+
+def uncertain_text(proof: UncertainProof) -> str:
+    """The same of an uncertain design: the values are the ranges over its members."""
+    design = proof.design
+    given = {key: design.range_of(key) for key in ("alpha", "gamma", "mu", "h")}
+    shown = ", ".join(f"{key} = {_range(x)}" for key, x in given.items() if x is not None)
+    graph = design.least.graph
+    heading = f"{design.least.name}: {shown}; {graph.agents} agents, {len(graph.edges)} edges"
+    width = max(map(len, NAMES.values()))
+    ranges = [f"  {NAMES.get(name, name):{width}}  {_range(x)}" for name, x in proof.values.items()]
+    parts = ["\n".join([heading, *(f"note: {note}" for note in design.least.notes)]) + "\n"]
+    parts += [_verdicts(proof.decisions, design.least.require), "\n".join(ranges) + "\n"]
+    parts += [_refutation(name, x) for name, x in proof.decisions.items() if x.verdict is Verdict.REFUTED]
+    parts.append(_ending(proof.decisions, design.least.require))
+    return "\n".join(parts)
+
+
+def _range(x: Interval) -> str:
+    return decimal(x, 20) if x.is_exact else f"[{rounded_down(x.lower, 12)}, {rounded_up(x.upper, 12)}]"
 
 
 def _heading(design: Design) -> str:
@@ -51,12 +76,11 @@ def _heading(design: Design) -> str:
     return "\n".join(lines + [f"note: {note}" for note in design.notes]) + "\n"
 
 
-def _verdicts(proof: Proof) -> str:
-    width = max(len(claim.ID) for claim in CLAIMS)
+def _verdicts(decisions: Mapping[str, Decision], require: Sequence[str]) -> str:
     lines = []
-    for name, decision in proof.decisions.items():
-        mark = "*" if name in proof.design.require else " "
-        head = f"{mark} {name:{width}}  {decision.verdict.value:<14}"
+    for name, decision in decisions.items():
+        mark = "*" if name in require else " "
+        head = f"{mark} {name:{NAME_WIDTH}}  {decision.verdict.value:<14}"
         lines += textwrap.wrap(head + decision.reason, WIDTH, subsequent_indent=" " * len(head))
     return "\n".join([*lines, "(* required)"]) + "\n"
 
@@ -145,6 +169,17 @@ def _sizes(sizes: Sizes) -> str:
     return "\n".join(f"  {line}" for line in lines) + "\n"
 
 
+def _margins(proof: Proof) -> str:
+    """How much room is left, gamma, h and alpha moved one at a time."""
+    lines = ["  margins, each number moved alone:"]
+    for name, words in margin_lines(proof):
+        head = f"    {name:{NAME_WIDTH}}  "
+        lines += textwrap.wrap(head + words, WIDTH, subsequent_indent=" " * len(head), break_on_hyphens=False)
+    if words := binding(proof):
+        lines += textwrap.wrap(f"  as required: {words}", WIDTH, subsequent_indent="    ", break_on_hyphens=False)
+    return "\n".join(lines) + "\n"
+
+
 def _horizon(proof: Proof) -> str:
     seen = proof.horizon
     if seen is None:
@@ -195,16 +230,16 @@ def _entry(x: Fraction) -> str:
     return format_rational(x)
 
 
-def _ending(proof: Proof) -> str:
-    rests = [f"{claim.ID} ({claim.COQ})" for claim in CLAIMS if claim.COQ and claim.ID in proof.decisions]
+def _ending(decisions: Mapping[str, Decision], require: Sequence[str]) -> str:
+    rests = [f"{claim.ID} ({claim.COQ})" for claim in CLAIMS if claim.COQ and claim.ID in decisions]
     lines = textwrap.wrap(
         f"Coq theorems behind them: {', '.join(rests)}", WIDTH, subsequent_indent="  ", break_on_hyphens=False
     )
-    return "\n".join([*lines, "", _verdict(proof)])
+    return "\n".join([*lines, "", _verdict(decisions, require)])
 
 
-def _verdict(proof: Proof) -> str:
-    required = {name: proof.decisions[name].verdict for name in proof.design.require}
+def _verdict(decisions: Mapping[str, Decision], require: Sequence[str]) -> str:
+    required = {name: decisions[name].verdict for name in require}
     if all(verdict is Verdict.PROVED for verdict in required.values()):
         return f"All {len(required)} required claims are proved."
     missed = ", ".join(f"{name} {verdict.value}" for name, verdict in required.items() if verdict is not Verdict.PROVED)

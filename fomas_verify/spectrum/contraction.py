@@ -21,6 +21,9 @@ from fomas_verify.spectrum.loop import Loop, decrease, least_decrease
 FIELD_WORK = 1_000_000
 """Bound on ``degree^2 N^3`` for elimination over Q(lambda2)."""
 
+ROUGH_END, SETTLED_END = 16, 90
+"""Bits to which an end of the interval of contraction is known, at first and when no more is asked."""
+
 
 def directions(loop: Loop, mu: Fraction, bits: int) -> Iterator[list[Fraction]]:
     """Integer vectors that sum to 0, ever nearer to the one that P(mu) shrinks least."""
@@ -142,37 +145,41 @@ def _just_above(mu: Interval, bits: int) -> list[Fraction]:
     return [short_dyadic(mu.upper, mu.upper + slack) for slack in slacks]
 
 
-def contraction_interval(loop: Loop, factor: Interval, *, cuts: int = 40) -> Interval | None:
-    """An interval outside of which no mu has ``sigma(mu) <= factor``; None where no mu has it.
-    Rigorous.
+def contraction_interval(loop: Loop, factor: Interval, *, cuts: int = 48) -> Interval | None:
+    """An interval outside of which no mu has ``sigma(mu) <= factor``; None where no mu has it. Rigorous.
 
     abs(1 - mu lambda2) <= sigma gives the first ends. A direction e cuts off every mu with ``norm(P(mu) e) > factor
-    norm(e)``: all but a closed interval, since the square is a convex parabola in mu.
+    norm(e)``: all but a closed interval, since the square is a convex parabola in mu. From outside these are Newton's
+    steps, so the ends come within about 2^-90 of themselves of the true ones, unless these two nearly meet.
     """
-    slowest, settled = loop.lambda2(64), 0
-    lower, upper = (1 - factor.upper) / slowest.upper, (1 + factor.upper) / slowest.lower
+    slowest, digits = loop.lambda2(64), [ROUGH_END, ROUGH_END]
+    region = Interval((1 - factor.upper) / slowest.upper, (1 + factor.upper) / slowest.lower)
     for cut in range(cuts):
-        if lower > upper:
-            return None
-        end = lower if cut % 2 == 0 else upper
-        e = _last(directions(loop, short_dyadic(end * (1 - Fraction(1, 1 << 60)), end), 64))
-        allowed = _parabola_interval(loop, e, factor.upper)
-        if allowed is None:
-            return None
-        moved = allowed.lower - lower, upper - allowed.upper
-        lower, upper = max(lower, allowed.lower), min(upper, allowed.upper)
-        settled = settled + 1 if max(moved) * (1 << 32) < upper else 0
-        if settled > 1:
+        side = cut % 2 if digits[cut % 2] < SETTLED_END else 1 - cut % 2
+        if digits[side] >= SETTLED_END:
             break
-    return Interval(lower, upper) if lower <= upper else None
+        end = region.upper if side else region.lower
+        near = short_dyadic(end * (1 - Fraction(1, 1 << digits[side])), end)
+        allowed = _parabola_interval(loop, last(directions(loop, near, 64)), factor.upper)
+        if allowed is None or not allowed.overlaps(region):
+            return None
+        region = Interval(max(region.lower, allowed.lower), min(region.upper, allowed.upper))
+        moved = abs((region.upper if side else region.lower) - end) / end
+        digits[side] = max(digits[side], 2 * _leading_zeros(moved) + 8)
+    return region
 
 
-def _last(items: Iterator[list[Fraction]]) -> list[Fraction]:
+def _leading_zeros(x: Fraction) -> int:
+    """The j with x near ``2^-j``, at most as many as settle an end."""
+    return SETTLED_END if x == 0 else min(SETTLED_END, max(0, x.denominator.bit_length() - x.numerator.bit_length()))
+
+
+def last(items: Iterator[list[Fraction]]) -> list[Fraction]:
     """The last of them."""
-    last: list[Fraction] = []
+    found: list[Fraction] = []
     for item in items:
-        last = item
-    return last
+        found = item
+    return found
 
 
 def _parabola_interval(loop: Loop, e: list[Fraction], factor: Fraction) -> Interval | None:
@@ -183,5 +190,5 @@ def _parabola_interval(loop: Loop, e: list[Fraction], factor: Fraction) -> Inter
     discriminant = b * b - a * c
     if discriminant < 0 or a == 0:
         return None
-    root = square_root(Interval.exactly(discriminant), 128)
-    return Interval(((b - root.upper) / a), ((b + root.upper) / a)).rounded(96)
+    root = square_root(Interval.exactly(discriminant), 192)
+    return Interval(((b - root.upper) / a), ((b + root.upper) / a)).rounded(128)

@@ -73,7 +73,7 @@ def follow(loop: Loop, components: Sequence[Sequence[Fraction]], bits: int, limi
     size = sum((exact.norm_squared(e) for e in e0), Fraction(0))
     with working_precision(bits):
         run = Samples(loop, bits)
-        test, powers = TailTest(loop.design.alpha, bits), {0: Fraction(1)}
+        test, powers = TailTest(run.alpha, bits), {0: Fraction(1)}
         largest, at = Interval.exactly(0), 0
         for sample in run.all(limit):
             k = sample.k

@@ -22,12 +22,16 @@ from fomas_verify.kernel.memory import one_step_weight, step_response
 from fomas_verify.kernel.memory import threshold as kernel_threshold
 from fomas_verify.network import degree_max, imbalances, laplacian, unreachable_pair
 
+MOST_SAMPLES = 20_000
+"""The last sample examined of any design."""
+
 
 @dataclass(frozen=True, eq=False)
 class Loop:
-    """The closed loop of one design."""
+    """The closed loop of one design, and how many of its samples may be examined."""
 
     design: Design
+    most_samples: int = MOST_SAMPLES
 
     @cached_property
     def laplacian(self) -> Matrix:

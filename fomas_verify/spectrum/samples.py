@@ -24,17 +24,25 @@ from fomas_verify.enclosure.norms import (
     spectral_norm,
 )
 from fomas_verify.enclosure.real import working_precision
-from fomas_verify.kernel.memory import resolvent, step_response
+from fomas_verify.kernel.memory import resolvent_over, step_response_over
 from fomas_verify.spectrum.loop import Loop
 
 COARSE, ROUGH, MIDDLE, FINE = 4, 7, 14, 52
 """Squarings of a norm on the way and of one that decides: relative widths of about 5 %, 1 %, 5e-5 and 1e-15."""
 
-SAMPLE_WORK, MOST_SAMPLES, FEWEST_SAMPLES = 500_000_000, 20_000, 200
+SAMPLE_WORK, FEWEST_SAMPLES = 500_000_000, 200
 """Bounds on ``K N^3`` and on K, the last sample examined; K may always reach the third."""
 
 UNSTABLE_SAMPLES = 2_000
 """Bound on K where P is not Schur on 1perp, so that no tail will end the search."""
+
+
+@dataclass(frozen=True)
+class Box:
+    """Every pair of an order alpha in [0, 1] and an integrated gain mu > 0 from two enclosures."""
+
+    alpha: Interval
+    mu: Interval
 
 
 @dataclass(frozen=True)
@@ -56,25 +64,26 @@ class Tail:
 
 def sample_limit(loop: Loop) -> int:
     """The last sample that may be examined: a bound on work, the same on every machine."""
-    return max(FEWEST_SAMPLES, min(MOST_SAMPLES, SAMPLE_WORK // loop.design.graph.agents**3))
+    return max(FEWEST_SAMPLES, min(loop.most_samples, SAMPLE_WORK // loop.design.graph.agents**3))
 
 
 class Samples:
     """The samples of one loop at one precision; the caller holds the working precision."""
 
-    def __init__(self, loop: Loop, bits: int) -> None:
-        """Enclose P and the first coefficients of the resolvent."""
-        self._alpha, self._bits = loop.design.alpha, bits
+    def __init__(self, loop: Loop, bits: int, box: Box | None = None) -> None:
+        """Enclose P and the first coefficients of the resolvent, over a box where one is given."""
+        box = box or Box(Interval.exactly(loop.design.alpha), loop.mu(bits))
+        self.alpha, self._bits = box.alpha, bits
         self.limit = sample_limit(loop)
-        self.perron = perron_matrix(loop.laplacian, loop.mu(bits))
+        self.perron = perron_matrix(loop.laplacian, box.mu)
         self.identity = ball_identity(self.perron.nrows())
         self._center = centering(self.perron.nrows())
-        self._resolvent = resolvent(self._alpha, 64, bits)
+        self._resolvent = resolvent_over(self.alpha, 64, bits)
 
     def resolvent(self, k: int) -> Interval:
         """r_k."""
         if k >= len(self._resolvent):
-            self._resolvent = resolvent(self._alpha, min(4 * k, self.limit + 1), self._bits)
+            self._resolvent = resolvent_over(self.alpha, min(4 * k, self.limit + 1), self._bits)
         return self._resolvent[k]
 
     def after(self, k: int, phi: BallMatrix) -> BallMatrix:
@@ -100,8 +109,8 @@ class Samples:
 class TailTest:
     """Watches ``size_n <= M c_n`` as n grows, until the lemma's m is found."""
 
-    def __init__(self, alpha: Fraction, bits: int) -> None:
-        """For the memory of order alpha."""
+    def __init__(self, alpha: Interval, bits: int) -> None:
+        """For the memory of order alpha, or of every order in an enclosure."""
         self._alpha, self._bits = alpha, bits
         self._last_open = self._n = 0
 
@@ -128,7 +137,7 @@ class TailTest:
         return self._n - self._last_open
 
     def _c(self, n: int) -> Interval:
-        return step_response(self._alpha, n, self._bits)
+        return step_response_over(self._alpha, n, self._bits)
 
 
 @dataclass(frozen=True)
@@ -175,7 +184,7 @@ def search(loop: Loop, bits: int) -> Search:
         run = Samples(loop, bits)
         powers = {0: Fraction(1)}
         slow = loop.sigma(128).upper <= 1
-        test, checkpoints, next_power = TailTest(loop.design.alpha, bits), [], 1
+        test, checkpoints, next_power = TailTest(run.alpha, bits), [], 1
         least, above, skip_until = Fraction(1), None, 0
         for sample in run.all():
             k = sample.k

@@ -97,16 +97,23 @@ def lyapunov_form(p: Matrix) -> list[list[Fraction]]:
     test only.
     """
     for bits in PRECISIONS:
-        candidate = approx_lyapunov_sum(p, bits)
-        if candidate is None:
-            continue
-        for scale in (8, 16, 32, 64, bits // 2, bits):
-            q = integer_lyapunov_form(candidate, scale)
-            if exact.is_positive_definite(q - p.transpose() * q * p) and exact.is_positive_definite(q):
-                return lower_triangle(q)
+        if (form := lyapunov_form_within(p, bits)) is not None:
+            return form
     raise ArithmeticError(
         f"no Lyapunov form found at {PRECISIONS[-1]} bits for a matrix whose eigenvalues lie in the open disc"
     )
+
+
+def lyapunov_form_within(p: Matrix, bits: int) -> list[list[Fraction]] | None:
+    """The same, sought at one precision: None where it shows none, for P that is not Schur too."""
+    candidate = approx_lyapunov_sum(p, bits)
+    if candidate is None:
+        return None
+    for scale in (8, 16, 32, 64, bits // 2, bits):
+        q = integer_lyapunov_form(candidate, scale)
+        if exact.is_positive_definite(q - p.transpose() * q * p) and exact.is_positive_definite(q):
+            return lower_triangle(q)
+    return None
 
 
 def lower_triangle(a: Matrix) -> list[list[Fraction]]:

@@ -37,7 +37,7 @@ def text(name: str) -> str:
 def rationals(value: Any) -> list[str]:
     """Every string that stands where a rational belongs."""
     if isinstance(value, str):
-        return [value]
+        return [] if value in ("proved", "refuted") else [value]  # the verdict inside a margin
     if isinstance(value, list):
         return [x for part in value for x in rationals(part)]
     return [x for part in value.values() for x in rationals(part)] if isinstance(value, dict) else []

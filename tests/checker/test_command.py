@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from fomas_verify.checker import STATEMENTS, command
+from fomas_verify.checker import STATEMENTS, command, text
 from tests.checker.builder import PAPER_EDGES, Json, certificate, claim, design, paper
 from tests.checker.cases import CASES
 
@@ -141,6 +141,19 @@ def test_what_is_no_certificate_is_2(tmp_path: Path, capsys: pytest.CaptureFixtu
     assert caught.err.endswith('cert.json\': $: missing key "format"\n')
 
 
+def test_not_a_byte_more_than_is_allowed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """What stands behind the last byte that is allowed is not cut off and then forgotten."""
+    file = Path(written(tmp_path, paper()))
+    for module in (command, text):
+        monkeypatch.setattr(module, "MAX_BYTES", file.stat().st_size)
+    assert command.main([str(file)]) == 0
+    file.write_text(file.read_text() + " ")
+    assert command.main([str(file)]) == 2
+    assert "larger than" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize("error", [ValueError("some\nthing"), RecursionError(), MemoryError(), KeyboardInterrupt()])
 def test_whatever_else_goes_wrong_is_4(
     error: BaseException, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
@@ -177,6 +190,13 @@ def test_a_closed_pipe_is_4_and_one_line(tmp_path: Path) -> None:
     assert found.stderr == "internal error: BrokenPipeError: '[Errno 32] Broken pipe'\n"
 
 
+@pytest.fixture
+def plain_imports(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Imports without pytest's hook, whose loader runpy cannot use; it takes the package for a plugin of pytest."""
+    monkeypatch.setattr(sys, "meta_path", [finder for finder in sys.meta_path if not hasattr(finder, "mark_rewrite")])
+
+
+@pytest.mark.usefixtures("plain_imports")
 def test_a_failed_import_is_4(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     monkeypatch.setitem(sys.modules, "fomas_verify.checker.command", None)
     with pytest.raises(SystemExit) as caught:
@@ -194,6 +214,7 @@ def test_as_a_folder_the_root_stands_in_for_the_folder(tmp_path: Path, monkeypat
     assert sys.path.count(str(FOLDER)) == 0
 
 
+@pytest.mark.usefixtures("plain_imports")
 def test_imported_it_does_nothing() -> None:
     assert "_run" in runpy.run_module("fomas_verify.checker.__main__", run_name="other")
 
@@ -230,11 +251,30 @@ def floats(source: str) -> list[str]:
     return sorted(literals + [n.id for n in nodes if isinstance(n, ast.Name) and n.id in names])
 
 
+def digests(source: str) -> list[str]:
+    """Where a module could know a certificate again instead of deciding it: digests taken, and digests kept."""
+    modules = {"hashlib", "hmac", "zlib", "binascii", "base64", "pickle", "marshal", "shelve", "sqlite3"}
+    names = {"hash", "digest", "hexdigest", "crc32", "adler32"}
+    found = []
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.Import | ast.ImportFrom):
+            imported = [alias.name for alias in node.names] + [getattr(node, "module", None) or ""]
+            found += [name for name in imported if name.split(".")[0] in modules]
+        elif isinstance(node, ast.Name | ast.Attribute):
+            name = node.id if isinstance(node, ast.Name) else node.attr
+            found += [name] if name in names else []
+        elif isinstance(node, ast.Constant):
+            kept = node.value.decode("latin-1") if isinstance(node.value, bytes) else str(node.value)
+            found += re.findall(r"[0-9A-Za-z+/_-]{32,}", kept)
+    return found
+
+
 @pytest.mark.parametrize("file", sorted(FOLDER.glob("*.py")), ids=lambda file: file.name)
-def test_sources_import_the_standard_library_only_and_hold_no_floats(file: Path) -> None:
+def test_sources_import_the_standard_library_only_and_hold_no_floats_nor_digests(file: Path) -> None:
     source = file.read_text()
     assert foreign_imports(source) == set()
     assert floats(source) == []
+    assert digests(source) == []
     assert not any(isinstance(node, ast.Assert) for node in ast.walk(ast.parse(source)))
 
 
@@ -259,6 +299,22 @@ def test_the_import_gate_goes_red(source: str, found: set[str]) -> None:
 
 def test_the_float_gate_goes_red() -> None:
     assert floats("x = 0.5 * float(2) + 1j") == ["0.5", "1j", "float"]
+
+
+@pytest.mark.parametrize(
+    "source",
+    [
+        "import hashlib",
+        "from zlib import crc32 as seen",
+        "def f(data):\n    return hash(data) in KNOWN",
+        "x = y.hexdigest()",
+        "KNOWN = {'" + "9f86d081884c7d65" * 4 + "'}",
+        "KNOWN = (b'" + "n4bQgYhMfWWaL+qgxVrQFaO/TxsrC4Is" + "',)",
+        "KNOWN = 0x" + "9f86d081884c7d65" * 4,
+    ],
+)
+def test_the_digest_gate_goes_red(source: str) -> None:
+    assert digests(source) != []
 
 
 def test_the_statements_are_those_of_the_format() -> None:

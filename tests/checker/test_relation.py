@@ -29,6 +29,8 @@ SKEW = design([[2, 1, "2"], [3, 1, "5"], [1, 2, "7"], [2, 3, "5"]], 3, "1/2", mu
 STILL = design(PAPER_EDGES, 5, gamma="3/20", h="17/20", x0=["7/3"] * 5)
 WORST = ["0", "-1", "-1", "-1", "1"]
 VECTORS = design(PAPER_EDGES, 5, gamma="3/20", h="17/20", x0=[[a, "1", b] for a, b in zip(X0, WORST, strict=True)])
+STILL_AND_FAST = design(PAPER_EDGES, 5, mu="3/4", x0=["7/3"] * 5)
+K2_FAST = design(path(2), 2, mu="5/4")
 SQUARE = design(complete(4), 4, "9/10", mu="1/5", x0=["1", "0", "0", "-1"])
 TIE = design(path(4), 4, "1/2", mu="1", x0=["1", "2", "3", "5"])
 EVERY, ONE = "control-norm-bound", "trajectory-norm-bound"
@@ -66,6 +68,12 @@ ACCEPTED: list[tuple[Json, str, str, Json]] = [
     (PAPER, EVERY, "refuted", {"x0": WORST, "k": 1}),
     (PAPER, EVERY, "refuted", {"x0": [str(3 - 5 * int(x)) + "/7" for x in WORST], "k": 1}),
     (PAPER, ONE, "proved", lemma(6, 1)),
+    (REPAIRED, EVERY, "proved", {}),
+    (REPAIRED, ONE, "proved", {}),
+    (STILL_AND_FAST, EVERY, "refuted", {"mu": "7/10", "power": 1000}),
+    (STILL_AND_FAST, ONE, "proved", {}),
+    (K2_FAST, EVERY, "refuted", {"mu": "11/10", "power": 1}),
+    (K2_FAST, EVERY, "refuted", {"mu": "5/4", "power": 2**256}),
     (REPAIRED, EVERY, "proved", lemma(0, 1)),
     (REPAIRED, EVERY, "proved", lemma(3, 5)),
     (REPAIRED, ONE, "proved", lemma(0, 1)),
@@ -93,6 +101,13 @@ REFUSED: list[tuple[Json, str, str, Json, str]] = [
     (PAPER, EVERY, "refuted", {"x0": WORST, "k": 40}, EXCEEDS),
     (PAPER, EVERY, "refuted", {"x0": ["1"] * 5, "k": 1}, "L x_0 != 0"),
     (REPAIRED, EVERY, "refuted", {"x0": WORST, "k": 1}, EXCEEDS),
+    (PAPER, EVERY, "proved", {}, "sigma <= 2^alpha - 1"),
+    (STILL, EVERY, "proved", {}, "sigma <= 2^alpha - 1"),
+    (FLIPPED, ONE, "proved", {}, "L x_0 = 0, or sigma <= 2^alpha - 1"),
+    (K2_FAST, EVERY, "refuted", {"mu": "1", "power": 100}, "abs trace(Pc(witness.mu)^power) > N - 1"),
+    (K2_FAST, EVERY, "refuted", {"mu": "13/10", "power": 100}, "witness.mu <= mu"),
+    (K2_FAST, EVERY, "refuted", {"mu": "-1", "power": 100}, "0 < witness.mu"),
+    ({**K2_FAST, "mu": "1"}, EVERY, "refuted", {"mu": "1", "power": 2}, "abs trace(Pc(witness.mu)^power) > N - 1"),
     (PAPER, EVERY, "proved", lemma(0, 1), POWERS),
     (PAPER, EVERY, "proved", lemma(1, 1), SAMPLES),
     (PAPER, EVERY, "proved", lemma(50, 50), SAMPLES),
@@ -100,12 +115,12 @@ REFUSED: list[tuple[Json, str, str, Json, str]] = [
     (PAPER, EVERY, "inapplicable", {}, "Assumption 1 fails, and the claim presupposes it"),
     (PAPER, ONE, "refuted", {"k": 1}, EXCEEDS),
     (PAPER, ONE, "refuted", {"k": 100}, EXCEEDS),
-    (PAPER, ONE, "proved", {}, "L x_0 = 0"),
+    (PAPER, ONE, "proved", {}, "L x_0 = 0, or sigma <= 2^alpha - 1"),
     (STILL, ONE, "refuted", {"k": 1}, "L x_0 != 0"),
     ({**PAPER, "x0": WORST}, ONE, "proved", lemma(0, 1), POWERS_OF),
     ({**PAPER, "x0": WORST}, ONE, "proved", lemma(9, 1), SAMPLES_OF),
     (VECTORS, ONE, "refuted", {"k": 1}, EXCEEDS),
-    (VECTORS, ONE, "proved", {}, "L x_0 = 0"),
+    (VECTORS, ONE, "proved", {}, "L x_0 = 0, or sigma <= 2^alpha - 1"),
     (SQUARE, EVERY, "proved", {"mu": "1/6", "lambda_max_upper": "4"}, "mu <= witness.mu"),
     (SQUARE, EVERY, "proved", {"mu": "1/5", "lambda_max_upper": "39/10"}, LARGEST),
     (SQUARE, ONE, "proved", {"mu": "1/5", "lambda_max_upper": "39/10"}, LARGEST),
@@ -176,7 +191,7 @@ def test_a_lemma_beyond_the_work_allowed(name: str) -> None:
 
 
 FORMS: list[tuple[str, str, Any]] = [
-    (EVERY, "proved", {}),
+    (EVERY, "proved", {"k": 1}),
     (EVERY, "proved", {"samples": 0}),
     (EVERY, "proved", {"samples": 0, "powers": 0}),
     (EVERY, "proved", {"samples": -1, "powers": 1}),
@@ -185,6 +200,11 @@ FORMS: list[tuple[str, str, Any]] = [
     (EVERY, "proved", {"mu": "1", "lambda_max_upper": "2", "samples": 0}),
     (EVERY, "proved", []),
     (EVERY, "refuted", {"k": 1}),
+    (EVERY, "refuted", {}),
+    (EVERY, "refuted", {"power": 2}),
+    (EVERY, "refuted", {"mu": "1", "power": 0}),
+    (EVERY, "refuted", {"mu": "1", "power": 2, "k": 1}),
+    (EVERY, "refuted", {"mu": "1", "Y": [["1"], ["0", "1"], ["0", "0", "1"], ["0", "0", "0", "1"]]}),
     (EVERY, "refuted", {"x0": WORST}),
     (EVERY, "refuted", {"x0": WORST, "k": 0}),
     (EVERY, "refuted", {"x0": WORST[1:], "k": 1}),

@@ -191,3 +191,18 @@ def test_agents_with_several_states(verify: Verify, tmp_path: Path) -> None:
     assert verify("check", certificate, "--design", design).returncode == 0
     other = write(tmp_path, text.replace("[5, 0]", "[5, 1]"))
     assert verify("check", certificate, "--design", other).returncode == 1
+
+
+def test_how_much_room_the_papers_design_has(verify: Verify, tmp_path: Path) -> None:
+    """The issue: gamma may fall by 0.6 % before (14) fails, and must rise to 0.174538096247815173... for the repair."""
+    certificate = tmp_path / "certificate.json"
+    text = " ".join(verify("prove", PAPER, "-o", certificate).stdout.split())
+    assert "gamma may fall by 0.598 % (memory-inequality binds) and rise by 271 % (gain-bound binds)" in text
+    assert "repaired-condition false here; true for gamma times 1.16359 to 2.94283" in text
+    assert "(gamma = 0.174538096247815173... at least)" in text
+    values = json.loads(certificate.read_text())["values"]
+    mu = Fraction(values["mu"]["lower"])
+    least, enough = (Fraction(values["margins"]["repaired-condition"]["mu"][key][0]) for key in ("outer", "inner"))
+    for end in (least, enough):
+        assert abs(end / mu * Fraction("0.15") - Fraction("0.1745380962478151735")) < Fraction(1, 10**18)
+    assert verify("check", certificate, "--design", PAPER, "--require", "design").returncode == 0

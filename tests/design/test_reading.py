@@ -6,8 +6,18 @@ from pathlib import Path
 
 import pytest
 
-from fomas_verify.design import CLAIM_IDS, DEFAULT_REQUIRE, Design, design_from_mapping, parse_design, read_design
+from fomas_verify.design import (
+    CLAIM_IDS,
+    DEFAULT_REQUIRE,
+    Design,
+    UncertainDesign,
+    design_from_mapping,
+    parse_design,
+    read_design,
+)
 from fomas_verify.design.document import MAX_NESTING, parse_document
+from fomas_verify.design.reading import any_from_mapping
+from fomas_verify.enclosure.interval import Interval
 
 PAPER = """
 name  = "paper"
@@ -154,3 +164,19 @@ def test_many_decimals_and_dotted_keys_are_no_nesting() -> None:
     many = 3 * MAX_NESTING
     assert len(parse_document("a = [" + "0.5, " * many + "]", "toml", "a.toml")["a"]) == many
     assert len(parse_document("".join(f"a{i}.b = 1.5\n" for i in range(many)), "toml", "a.toml")) == many
+
+
+def test_an_uncertain_design_keeps_its_intervals_exactly() -> None:
+    table = {"alpha": ["0.88", 0.92], "gamma": [0.1, "1/5"], "h": 0.85, "graph": {"family": "path", "agents": 3}}
+    found = any_from_mapping(table, "a.toml")
+    assert isinstance(found, UncertainDesign)
+    assert found.ranges == {
+        "alpha": Interval(Fraction(22, 25), Fraction(23, 25)),
+        "gamma": Interval(Fraction(1, 10), Fraction(1, 5)),
+    }
+    assert found.range_of("h") == Interval.exactly(Fraction(17, 20))
+    assert found.range_of("mu") is None
+    member = found.member(Fraction(9, 10), Fraction(1, 4))
+    assert (member.alpha, member.gamma, member.h) == (Fraction(9, 10), Fraction(1, 8), Fraction(17, 20))
+    assert found.least.notes == ("alpha, gamma, h: binary floats are read as their shortest decimals (0.1 is 1/10)",)
+    assert isinstance(any_from_mapping(table | {"alpha": 0.9, "gamma": 0.1}), Design)

@@ -89,7 +89,10 @@ def test_says_what_the_paper_needs_to_hear(paper: Proof, tmp_path: Path) -> None
     assert ", ".join(rf"\claimid{{{name}}} (\refuted)" for name in refuted) in summary
     assert [claim.ID for claim in CLAIMS if rf"\subsection[{claim.ID}]" not in rest] == []
     assert r"the preprint itself prints \paperlabel{eqT2} as (16), and its (14) is \paperlabel{eqxik\_2}" in rest
-    assert "accepted 10 claims and 10 values" in rest
+    assert "accepted 10 claims and 20 values" in rest
+    margins = rest.split(r"\section{Margins}")[1]
+    assert r"$\gamma = 0.174538096247815173\ldots$ at least" in margins
+    assert r"$\gamma$ may fall by $0.598$ \% (\claimid{memory-inequality} binds)" in margins
 
 
 @pytest.mark.usefixtures("quick")
@@ -158,7 +161,7 @@ def test_undecided_is_never_told_as_proved_or_refuted(paper: Proof, tmp_path: Pa
     assert "not decided at $4096$ bits" in section
     assert "the prover stopped at 4096 bits" in section
     assert r"\refuted" not in section
-    assert r"accepted 9 claims and 10 values. Left undecided: \texttt{beta-contraction}." in flat(text)
+    assert r"accepted 9 claims and 20 values. Left undecided: \texttt{beta-contraction}." in flat(text)
 
 
 @needs_latex
