@@ -15,6 +15,10 @@ COMMANDS = {
     "check": "check a certificate with the independent checker",
     "kernel": "f(j), c_n, partial sums and resolvent, every printed digit right",
     "report": "LaTeX report of a design, and its PDF where a LaTeX is at hand",
+    "gate": "many designs, one exit status: the gate of a CI job",
+    "init": "a commented design file to start from",
+    "schema": "the JSON Schema of the design file or of the certificate",
+    "completion": "completion of commands and options for bash, zsh and fish",
     "selftest": "known answers of every primitive, proved again",
 }
 WRONG_INPUT = 2

@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+import json
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
-from fomas_verify.checker import STATEMENTS, Malformed, Report, check
+from fomas_verify.checker import Malformed, Report, check
+from fomas_verify.cli.options import json_option
+from fomas_verify.cli.require import OWN, require_option
 from fomas_verify.exact.errors import FomasError
 
 if TYPE_CHECKING:
-    from fomas_verify.design import Design
+    from fomas_verify.checker.report import Shortfall
+    from fomas_verify.design import Design, UncertainDesign
 
 LARGEST = 64 << 20
 FALSE, UNDECIDED = 1, 3
@@ -25,28 +31,22 @@ class CertificateError(FomasError):
 @click.command("check")
 @click.argument("certificate", type=click.Path(path_type=Path), metavar="CERT.json")
 @click.option("--design", type=click.Path(path_type=Path), metavar="DESIGN", help="it must be about that design")
-@click.option(
-    "--require", metavar="IDS", help="these claims must be proved (comma-separated); 'design': the design's own"
-)
-def command(certificate: Path, design: Path | None, require: str | None) -> int:
+@require_option
+@json_option
+def command(certificate: Path, design: Path | None, require: tuple[str, ...], *, as_json: bool) -> int:
     """Check CERT.json with the independent checker: every value and every claim in it is decided anew.
 
     \b
     Example:  verify-design check certificate.json --design examples/paper.toml --require design
     """
-    names = _ids(require)
     meant = None if design is None else _read_design(design)
     try:
         report = check(_read(certificate))
     except Malformed as error:
         raise CertificateError(f"{certificate}: {error}") from None
-    for outcome in report.outcomes:
-        verdict = f" {outcome.verdict}" if outcome.verdict else ""
-        click.echo(f"{outcome.status:<10} {outcome.id}{verdict}: {outcome.reason}")
-    statuses = {report.exit_status, _compare(report, meant), _require(report, names)}
-    status = FALSE if FALSE in statuses else UNDECIDED if UNDECIDED in statuses else 0
-    click.echo(ENDINGS[status])
-    return status
+    answer = _Answer(report, meant, tuple(dict.fromkeys(_expanded(require, report))))
+    click.echo(json.dumps(answer.record(), indent=2) if as_json else "\n".join(answer.lines()))
+    return answer.status
 
 
 def _read(certificate: Path) -> bytes:
@@ -57,40 +57,26 @@ def _read(certificate: Path) -> bytes:
         raise CertificateError(f"{certificate}: expected a certificate, got {error.strerror}") from None
 
 
-def _ids(require: str | None) -> list[str]:
-    names = require.split(",") if require else []
-    for name in names:
-        if name not in STATEMENTS and names != ["design"]:
-            raise click.BadParameter(f"expected claim ids or 'design', got {name[:60]!r}", param_hint="--require")
-    return names
+def _expanded(require: tuple[str, ...], report: Report) -> Iterator[str]:
+    for name in require:
+        yield from report.design.require if name == OWN else (name,)
 
 
-def _read_design(path: Path) -> Design:
-    from fomas_verify.design import read_design
+def _read_design(path: Path) -> Design | UncertainDesign:
+    from fomas_verify.design import read_any
 
-    return read_design(path)
-
-
-def _compare(report: Report, design: Design | None) -> int:
-    """Whether the certificate is about the user's own design."""
-    if design is None:
-        return 0
-    different = differences(report, design)
-    if different:
-        click.echo(f"refused    design: not the design of {design.source}: {', '.join(different)} differ")
-        return FALSE
-    click.echo(f"accepted   design: the design of {design.source}")
-    return 0
+    return read_any(path)
 
 
-def differences(report: Report, design: Design) -> list[str]:
-    """The keys in which the certificate's design and the user's are not the same, as exact numbers."""
-    named = report.design
-    pairs = {
-        "alpha": (named.alpha, design.alpha),
-        "gamma": (named.gamma, design.gamma),
-        "mu": (named.mu, design.mu),
-        "h": (named.h, design.h),
+def differences(report: Report, meant: Design | UncertainDesign) -> list[str]:
+    """The keys in which the certificate's design and the user's are not the same, as exact numbers and intervals."""
+    from fomas_verify.design import UncertainDesign
+
+    named, design = report.design, _plain(meant)
+    numbers = {"alpha": design.alpha, "gamma": design.gamma, "mu": design.mu, "h": design.h}
+    ranges = meant.ranges if isinstance(meant, UncertainDesign) else {}
+    ours = numbers | {key: (x.lower, x.upper) for key, x in ranges.items()}
+    pairs = {key: (getattr(named, key), number) for key, number in ours.items()} | {
         "agents": (named.agents, design.graph.agents),
         "edges": (sorted(named.edges), sorted(design.graph.edges)),
         "x0": (named.x0, design.x0),
@@ -99,12 +85,55 @@ def differences(report: Report, design: Design) -> list[str]:
     return [key for key, (theirs, ours) in pairs.items() if theirs != ours]
 
 
-def _require(report: Report, names: list[str]) -> int:
-    """Whether the claims asked for are proved."""
-    required = report.design.require if names == ["design"] else names
-    shortfalls = report.shortfalls(required)
-    for shortfall in shortfalls:
-        click.echo(f"required   {shortfall.id}: {shortfall.reason}")
-    if required and not shortfalls:
-        click.echo(f"required   all {len(required)} claims are proved")
-    return max((s.exit_status for s in shortfalls if s.exit_status == FALSE), default=UNDECIDED if shortfalls else 0)
+def _plain(meant: Design | UncertainDesign) -> Design:
+    """What the members of an uncertain design have in common."""
+    from fomas_verify.design import UncertainDesign
+
+    return meant.least if isinstance(meant, UncertainDesign) else meant
+
+
+@dataclass(frozen=True)
+class _Answer:
+    """The checker's report, the design that the certificate must be about, and the claims that must be proved."""
+
+    report: Report
+    meant: Design | UncertainDesign | None
+    required: tuple[str, ...]
+
+    @property
+    def different(self) -> list[str]:
+        return [] if self.meant is None else differences(self.report, self.meant)
+
+    @property
+    def shortfalls(self) -> tuple[Shortfall, ...]:
+        return self.report.shortfalls(self.required)
+
+    @property
+    def status(self) -> int:
+        """1 if anything is false, another design's or a required claim not true; else 3 if anything is undecided."""
+        found = {self.report.exit_status, FALSE if self.different else 0, *(x.exit_status for x in self.shortfalls)}
+        return FALSE if FALSE in found else UNDECIDED if UNDECIDED in found else 0
+
+    def lines(self) -> Iterator[str]:
+        for outcome in self.report.outcomes:
+            verdict = f" {outcome.verdict}" if outcome.verdict else ""
+            yield f"{outcome.status:<10} {outcome.id}{verdict}: {outcome.reason}"
+        if self.meant is not None and self.different:
+            differ = f"{', '.join(self.different)} differ"
+            yield f"refused    design: not the design of {_plain(self.meant).source}: {differ}"
+        elif self.meant is not None:
+            yield f"accepted   design: the design of {_plain(self.meant).source}"
+        for shortfall in self.shortfalls:
+            yield f"required   {shortfall.id}: {shortfall.reason}"
+        if self.required and not self.shortfalls:
+            yield f"required   all {len(self.required)} claims are proved"
+        yield ENDINGS[self.status]
+
+    def record(self) -> dict[str, object]:
+        return {
+            "status": self.status,
+            "outcomes": [asdict(outcome) for outcome in self.report.outcomes],
+            "differences": None if self.meant is None else self.different,
+            "required": list(self.required),
+            "shortfalls": [asdict(shortfall) for shortfall in self.shortfalls],
+        }

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import csv
 import io
+import json
 from pathlib import Path
 
 import click
 
-from fomas_verify.cli.options import design_argument, digits_option
+from fomas_verify.cli.options import design_argument, digits_option, json_option
 from fomas_verify.design import read_design
 from fomas_verify.enclosure.digits import decimal
 from fomas_verify.enclosure.interval import Interval
@@ -24,7 +25,10 @@ HEADER = ("j", "f", "c", "partial_sum", "r")
 @click.option("--at", "at", metavar="J1,J2", help="these j instead, or besides")
 @digits_option
 @click.option("--csv", "csv_file", type=click.Path(path_type=Path), metavar="FILE", help="write the rows to a CSV file")
-def command(design: Path, terms: int | None, at: str | None, digits: int, csv_file: Path | None) -> int:
+@json_option
+def command(
+    design: Path, terms: int | None, at: str | None, digits: int, csv_file: Path | None, *, as_json: bool
+) -> int:
     """Print f(j), c_j, the partial sums of abs f and the resolvent r_j for the order alpha of DESIGN.
 
     Numbers are truncated: every digit shown is a digit of the exact number. f(0) = c_0 = r_0 = 1.
@@ -43,11 +47,24 @@ def command(design: Path, terms: int | None, at: str | None, digits: int, csv_fi
             [HEADER, *([x.replace("...", "") for x in row] for row in rows)]
         )
         write_whole(csv_file, text.getvalue().encode())
-        return 0
+    elif as_json:
+        click.echo(json.dumps([_record(row) for row in rows], indent=2))
+    else:
+        _print_table(rows)
+    return 0
+
+
+def _record(row: tuple[str, ...]) -> dict[str, int | str | None]:
+    """A row by its names; the numbers stay text, since no binary float holds their digits."""
+    return {"j": int(row[0])} | {
+        name: x.replace("...", "") or None for name, x in zip(HEADER[1:], row[1:], strict=True)
+    }
+
+
+def _print_table(rows: list[tuple[str, ...]]) -> None:
     widths = [max(len(row[i]) for row in [HEADER, *rows]) for i in range(len(HEADER))]
     for row in [HEADER, *rows]:
         click.echo("  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip())
-    return 0
 
 
 def _indices(text: str) -> list[int]:

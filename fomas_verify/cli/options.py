@@ -10,3 +10,4 @@ design_argument = click.argument("design", type=click.Path(path_type=Path), meta
 digits_option = click.option(
     "--digits", type=click.IntRange(20, 10_000), default=50, show_default=True, help="significant digits of the values"
 )
+json_option = click.option("--json", "as_json", is_flag=True, help="print JSON in place of the table")

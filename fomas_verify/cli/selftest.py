@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import json
+
 import click
 
 from fomas_verify.checker import check
+from fomas_verify.cli.options import json_option
 from fomas_verify.design import parse_design
 from fomas_verify.prover import prove
 from fomas_verify.prover.selftest import PRIMITIVES
@@ -31,19 +34,21 @@ def _certificate() -> bytes:
 
 
 @click.command("selftest")
-def command() -> int:
+@json_option
+def command(*, as_json: bool) -> int:
     """Prove known answers of every primitive that a verdict rests on, again, on this machine.
 
     \b
     Example:  verify-design selftest
     """
-    failed = 0
+    failed, records = 0, []
     for test in (*PRIMITIVES, checker_accepts, checker_refuses):
         right = test()
         failed += not right
-        doc = " ".join((test.__doc__ or "").replace("``", "").split())
-        click.echo(f"{'ok   ' if right else 'WRONG'}  {test.__name__.replace('_', ' ')}: {doc}")
-    click.echo(
-        "Every known answer is proved again." if not failed else f"{failed} known answers are wrong: trust no verdict."
-    )
+        name, doc = test.__name__.replace("_", " "), " ".join((test.__doc__ or "").replace("``", "").split())
+        records.append({"name": name, "right": right, "statement": doc})
+        if not as_json:
+            click.echo(f"{'ok   ' if right else 'WRONG'}  {name}: {doc}")
+    ending = f"{failed} known answers are wrong: trust no verdict." if failed else "Every known answer is proved again."
+    click.echo(json.dumps({"wrong": failed, "tests": records}, indent=2) if as_json else ending)
     return DISAGREEMENT if failed else 0

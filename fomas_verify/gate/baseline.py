@@ -1,0 +1,93 @@
+"""Margins against those of a baseline: a certificate, made earlier, of the design of the same name.
+
+The margin of a claim in mu is the share by which mu may move either way, in alpha the distance, before the claim's
+truth changes: the inner intervals of docs/certificate-format.md, section 3, where there is an outer one that tells how
+near they are. The claims that are equivalent to perron-eigenvalues share its margins. Both certificates are accepted by
+the checker.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Iterator
+from fractions import Fraction
+from pathlib import Path
+from typing import Any, Final
+
+from fomas_verify.checker import Malformed, check
+from fomas_verify.enclosure.digits import rounded_down
+from fomas_verify.gate.cache import LARGEST, certificate_file
+from fomas_verify.gate.model import FALSE, SHRUNK, UNDECIDED, WRONG_INPUT, Finding
+
+EQUIVALENT: Final = {"control-bounded": "perron-eigenvalues", "average-consensus": "perron-eigenvalues"}
+_DIGITS: Final = 4
+
+
+def shrunk_margins(
+    folder: Path, name: str, required: Iterable[str], certificate: str, loss: Fraction
+) -> Iterator[Finding]:
+    """Compare the margins of required claims with those of a baseline.
+
+    Parameters
+    ----------
+    folder : Path
+        The baseline, a certificate for each design, named after it.
+    name, required : str and iterable of str
+        The design's name, and the claims to compare.
+    certificate : str
+        The design's certificate, accepted by the checker.
+    loss : Fraction
+        The share of each of the baseline's margins that may be lost, from 0 to 1.
+
+    Yields
+    ------
+    Finding
+        For each margin that lost more, and where the baseline's certificate is none. Nothing where it is missing, or
+        holds no margin of the claim: then the design is new, or the claim was not true before.
+    """
+    path = certificate_file(folder, name)
+    try:
+        with path.open("rb") as file:
+            data = file.read(LARGEST + 1)
+        status = check(data).exit_status
+    except FileNotFoundError:
+        return
+    except (OSError, Malformed) as error:
+        reason = error.strerror if isinstance(error, OSError) else str(error)
+        yield Finding(SHRUNK, "", WRONG_INPUT, f"{path}: expected a certificate, got: {reason}")
+        return
+    if status:
+        outcome = "does not decide within the work allowed" if status == UNDECIDED else "refuses"
+        yield Finding(
+            SHRUNK, "", UNDECIDED if status == UNDECIDED else WRONG_INPUT, f"{path}: the checker {outcome} it"
+        )
+        return
+    former, present = json.loads(data), json.loads(certificate)
+    for claim in dict.fromkeys(EQUIVALENT.get(name, name) for name in required):
+        yield from _compared(claim, margins_of(former, claim), margins_of(present, claim), loss)
+
+
+def _compared(
+    claim: str, former: dict[str, Fraction], present: dict[str, Fraction], loss: Fraction
+) -> Iterator[Finding]:
+    for parameter, before in former.items():
+        now = present.get(parameter)
+        if now is not None and before > 0 and now < (1 - loss) * before:
+            numbers = f"{rounded_down(now, _DIGITS)}, in the baseline {rounded_down(before, _DIGITS)}"
+            yield Finding(SHRUNK, "", FALSE, f"the margin of {claim} in {parameter} shrank: {numbers}")
+
+
+def margins_of(certificate: dict[str, Any], claim: str) -> dict[str, Fraction]:
+    """The margins of a claim in an accepted certificate, lower bounds: in mu as a share of mu, in alpha a distance."""
+    values = certificate["values"]
+    ranges = values.get("margins", {}).get(claim, {})
+    found = {}
+    if "outer" in ranges.get("mu", {}):
+        a, b = map(Fraction, ranges["mu"]["inner"])
+        lower, upper = (Fraction(values["mu"][end]) for end in ("lower", "upper"))
+        found["mu"] = min(1 - a / lower, b / upper - 1)
+    if "outer" in ranges.get("alpha", {}):
+        a, b = map(Fraction, ranges["alpha"]["inner"])
+        alpha = Fraction(certificate["design"]["alpha"])
+        found["alpha"] = min(alpha - a, b - alpha)
+    return found

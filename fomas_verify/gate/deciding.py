@@ -1,0 +1,204 @@
+"""One design: read, decided, its certificate checked, and compared with a baseline.
+
+A design passes only if the checker, in this run, accepted a certificate of it in which every required claim is proved.
+Whatever goes wrong with one design is an answer about that design and keeps no other from its own.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from pathlib import Path
+from typing import Final
+
+from fomas_verify.certificate.document import design_object
+from fomas_verify.checker import Malformed, Report, check
+from fomas_verify.claims.verdict import Decision
+from fomas_verify.design import Design, DesignError, UncertainDesign, read_any
+from fomas_verify.design.document import format_of, read_text, source_name
+from fomas_verify.exact.errors import FomasError
+from fomas_verify.gate.baseline import shrunk_margins
+from fomas_verify.gate.cache import cache_key, certificate_file, recall
+from fomas_verify.gate.model import (
+    BROKEN,
+    INTERNAL,
+    LIMIT,
+    UNDECIDED,
+    UNREADABLE,
+    Finding,
+    Position,
+    Result,
+)
+from fomas_verify.gate.positions import position_of, position_of_error
+from fomas_verify.prover import prove, prove_uncertain
+
+Named = Design | UncertainDesign
+
+OWN: Final = "design"
+"""Stands among required claims for those that the design itself requires."""
+
+_ABOUT_THE_GRAPH = ("graph-assumption", "beta-contraction")
+
+
+class DisagreementError(FomasError):
+    """The checker does not accept what the prover wrote: two computations that must agree do not."""
+
+    exit_status = INTERNAL
+
+
+@dataclass(frozen=True)
+class Options:
+    """How every design is decided.
+
+    Attributes
+    ----------
+    require : tuple of str
+        Claim ids that must be proved, in place of the design's own; `design` stands for these.
+    margins : bool
+        Whether the certificates are to hold every claim, size and margin, not only what is required.
+    cache : Path or None
+        A folder of former certificates.
+    baseline : Path or None
+        A folder with a certificate for each design, named after it.
+    loss : Fraction
+        The share of a baseline's margin that may be lost.
+    """
+
+    require: tuple[str, ...] = (OWN,)
+    margins: bool = False
+    cache: Path | None = None
+    baseline: Path | None = None
+    loss: Fraction = Fraction(0)
+
+
+def decide(path: Path, options: Options) -> Result:
+    """Decide one design.
+
+    Parameters
+    ----------
+    path : Path
+        The design's file.
+    options : Options
+        How.
+
+    Returns
+    -------
+    Result
+        Rigorous. Every error is told in it; nothing is raised but what interrupts or ends the program.
+    """
+    source = source_name(path)
+    answer = Result(source, str(path))
+    try:
+        named = _requiring(read_any(path), options.require)
+        answer = replace(answer, name=_plain(named).name, required=_plain(named).require)
+        return _decided(named, answer, options)
+    except FomasError as error:
+        message, status = str(error), error.exit_status
+        rule = {INTERNAL: BROKEN, UNDECIDED: LIMIT}.get(status, UNREADABLE)
+        place = refusal_position(path, message) if rule == UNREADABLE else Position()
+        finding = Finding(rule, "", status, message.removeprefix(f"{source}: "), "", place)
+        return replace(answer, required=(), findings=(finding,))
+    except Exception as error:
+        words = " ".join(f"{type(error).__name__}: {error}".split())
+        return replace(answer, required=(), findings=(Finding(BROKEN, "", INTERNAL, words),))
+
+
+def _plain(named: Named) -> Design:
+    """What the members of an uncertain design have in common, and where each interval begins."""
+    return named.least if isinstance(named, UncertainDesign) else named
+
+
+def _requiring(named: Named, require: tuple[str, ...]) -> Named:
+    design = _plain(named)
+    names = dict.fromkeys(name for word in require for name in (design.require if word == OWN else (word,)))
+    if "trajectory-norm-bound" in names:
+        design.needs("x0", command="trajectory-norm-bound")
+    design = replace(design, require=tuple(names))
+    return replace(named, least=design) if isinstance(named, UncertainDesign) else design
+
+
+def _decided(named: Named, answer: Result, options: Options) -> Result:
+    former = ""
+    if options.cache is not None:
+        answer = replace(answer, key=cache_key(named, _plain(named).horizon, margins=options.margins))
+        former = recall(options.cache, answer.key)
+    if former and _proves_all(former, named, answer.required):
+        answer = replace(answer, certificate=former, cached=True)
+        findings: list[Finding] = []
+    else:
+        text, decisions = _proved(named, options)
+        answer = replace(answer, certificate=text)
+        findings = list(_findings(_checked(text, named), answer.required, decisions))
+    if options.baseline is not None:
+        parts = (options.baseline, answer.name, answer.required, answer.certificate, options.loss)
+        findings += shrunk_margins(*parts)
+        if not certificate_file(options.baseline, answer.name).exists():
+            answer = replace(answer, note="no baseline")
+    return replace(answer, findings=tuple(_placed(Path(answer.path), _plain(named), findings)))
+
+
+def _proved(named: Named, options: Options) -> tuple[str, Mapping[str, Decision]]:
+    if isinstance(named, UncertainDesign):
+        uncertain = prove_uncertain(named)
+        return uncertain.certificate(), uncertain.decisions
+    proof = prove(named, only=None if options.margins else named.require)
+    return proof.certificate(), proof.decisions
+
+
+def _proves_all(certificate: str, named: Named, required: tuple[str, ...]) -> bool:
+    """Whether a former certificate is about this design, true, and proves what is required; checked anew."""
+    try:
+        report = _checked(certificate, named)
+    except DisagreementError:
+        return False
+    return report.exit_status == 0 and not report.shortfalls(required)
+
+
+def _checked(certificate: str, named: Named) -> Report:
+    try:
+        report = check(certificate.encode())
+    except Malformed as error:
+        raise DisagreementError(f"the checker cannot read the certificate: {error}") from None
+    for outcome in report.outcomes:
+        if outcome.status == "refused":
+            raise DisagreementError(f"the checker refuses the certificate: {outcome.id}: {outcome.reason}")
+    if json.loads(certificate)["design"] != design_object(named):
+        raise DisagreementError("the certificate is about another design")
+    return report
+
+
+def _findings(report: Report, required: tuple[str, ...], decisions: Mapping[str, Decision]) -> Iterator[Finding]:
+    shortfalls = report.shortfalls(required)
+    for shortfall in shortfalls:
+        decision = decisions[shortfall.id]
+        yield Finding(shortfall.id, shortfall.reason, shortfall.exit_status, decision.reason, decision.remedy)
+    told = {shortfall.id for shortfall in shortfalls}
+    for outcome in report.outcomes:
+        if outcome.status == "undecided" and outcome.id not in told:
+            yield Finding(LIMIT, "undecided", UNDECIDED, f"{outcome.id}: {outcome.reason}")
+
+
+def _placed(path: Path, design: Design, findings: list[Finding]) -> Iterator[Finding]:
+    """Each finding at the key to change: the graph, or the gain."""
+    if not findings:
+        return
+    text = _text(path)
+    gain = "mu" if design.mu is not None else "gamma"
+    for finding in findings:
+        graph = finding.rule in _ABOUT_THE_GRAPH or finding.outcome == "inapplicable"
+        yield replace(finding, position=position_of(text, format_of(path, text), ("graph",) if graph else (gain,)))
+
+
+def refusal_position(path: Path, message: str) -> Position:
+    """Where in a design's file the refusal of it points."""
+    text = _text(path)
+    return position_of_error(message, source_name(path), text, format_of(path, text))
+
+
+def _text(path: Path) -> str:
+    try:
+        return read_text(path)
+    except DesignError:
+        return ""

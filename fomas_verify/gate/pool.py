@@ -1,0 +1,90 @@
+"""Many designs on several processes, answered in the order of the input.
+
+A process starts once and decides many designs. One that dies is told as an internal error of the design that it was
+deciding, and of no other.
+"""
+
+from __future__ import annotations
+
+import signal
+from collections.abc import Generator, Iterator, Sequence
+from concurrent.futures import Future, ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
+from multiprocessing import active_children
+from pathlib import Path
+
+from fomas_verify.design.document import source_name
+from fomas_verify.gate.deciding import Options, decide
+from fomas_verify.gate.model import BROKEN, INTERNAL, Finding, Result
+
+
+def decide_all(paths: Sequence[Path], options: Options, jobs: int) -> Generator[Result, None, None]:
+    """Decide designs on so many processes, or in this one where one is enough.
+
+    Parameters
+    ----------
+    paths : sequence of Path
+        The designs' files.
+    options : Options
+        How each is decided.
+    jobs : int
+        Processes, at least 1.
+
+    Yields
+    ------
+    Result
+        In the order of the paths, each as soon as those before it are there.
+    """
+    if min(jobs, len(paths)) <= 1:
+        yield from (decide(path, options) for path in paths)
+        return
+    remaining = list(paths)
+    while remaining:
+        answered = 0
+        with _processes(min(jobs, len(remaining))) as pool:
+            futures = [pool.submit(decide, path, options) for path in remaining]
+            while answered < len(futures) and (result := _result(futures[answered])) is not None:
+                yield result
+                answered += 1
+        remaining = remaining[answered:]
+        if remaining:
+            yield _alone(remaining.pop(0), options)
+
+
+def _alone(path: Path, options: Options) -> Result:
+    """Decide the first design that was lost with a pool again, to know whether it is the one that ends processes."""
+    with _processes(1) as pool:
+        return _result(pool.submit(decide, path, options)) or _ended(path)
+
+
+def _result(future: Future[Result]) -> Result | None:
+    try:
+        return future.result()
+    except BrokenProcessPool:
+        return None
+
+
+def _ended(path: Path) -> Result:
+    reason = "the process that decided it was ended from outside, or ran out of memory"
+    return Result(source_name(path), str(path), findings=(Finding(BROKEN, "", INTERNAL, reason),))
+
+
+def _leave_signals_to_the_parent() -> None:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+
+
+@contextmanager
+def _processes(count: int) -> Iterator[ProcessPoolExecutor]:
+    """A pool that ends, with all its processes, when this one is interrupted."""
+    before = set(active_children())
+    pool = ProcessPoolExecutor(count, initializer=_leave_signals_to_the_parent)
+    try:
+        yield pool
+    except BaseException:
+        pool.shutdown(wait=False, cancel_futures=True)
+        for process in set(active_children()) - before:
+            process.terminate()
+        raise
+    pool.shutdown()

@@ -1,0 +1,129 @@
+"""``--baseline``: a margin that shrank fails, however true the claims still are."""
+
+import json
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+
+from fomas_verify.cli import main
+from fomas_verify.gate.baseline import margins_of
+
+PAPER = """name = "{name}"
+alpha = 0.9
+gamma = {gamma}
+h = 0.85
+[graph]
+adjacency = [[0,0,0,1,1], [1,0,1,0,0], [1,1,0,0,0], [0,1,1,0,0], [0,0,0,1,0]]
+[gate]
+require = {require}
+"""
+
+
+@pytest.fixture(scope="module")
+def baseline(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The certificate of the paper's design, as `gate -o` writes it."""
+    folder = tmp_path_factory.mktemp("baseline")
+    (folder / "plant.toml").write_text(design())
+    assert main(["gate", str(folder / "plant.toml"), "-o", str(folder / "certificates")]) == 0
+    return folder / "certificates"
+
+
+def design(gamma: str = "0.15", name: str = "the plant/1", require: tuple[str, ...] = ("memory-inequality",)) -> str:
+    return PAPER.format(gamma=gamma, name=name, require=json.dumps(require))
+
+
+def gate(folder: Path, text: str, baseline: Path, *options: str) -> int:
+    (folder / "x.design.toml").write_text(text)
+    return main(["gate", str(folder), "--baseline", str(baseline), *options])
+
+
+def test_the_margins_of_the_paper(baseline: Path) -> None:
+    """(14) asks for mu >= (2 - 2^0.9)/lambda2 = 0.133934016926385..., gain-bound for mu < 1/2, stability for 2/3."""
+    (file,) = baseline.iterdir()
+    assert file.name == "the plant%2F1.json"
+    certificate = json.loads(file.read_text())
+    mu, least = Fraction("0.134740746183943825882"), Fraction("0.133934016926385168037")
+    margins = {
+        claim: margins_of(certificate, claim)["mu"] for claim in certificate["values"]["margins"] if claim[0] in "gmp"
+    }
+    assert abs(margins["memory-inequality"] - (1 - least / mu)) < Fraction(1, 10**9)
+    assert margins["gain-bound"] == margins["perron-eigenvalues"] == 1
+    assert margins_of(certificate, "graph-assumption") == {}
+    assert margins_of(certificate, "control-norm-bound") == {}
+
+
+@pytest.mark.parametrize(
+    ("gamma", "options", "status"),
+    [
+        ("0.15", ("--loss", "0"), 0),
+        ("0.1501", ("--loss", "0"), 0),
+        ("0.1499", (), 1),  # 11 per cent of the margin of 0.6 per cent
+        ("0.14995", (), 0),
+        ("0.1495", (), 1),
+        ("0.1495", ("--loss", "3/5"), 0),
+        ("0.1495", ("--loss", "50%"), 1),
+        ("0.1492", ("--loss", "1"), 0),
+        ("0.149", ("--loss", "1"), 1),  # refuted
+    ],
+)
+def test_a_shrunk_margin(
+    baseline: Path,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    gamma: str,
+    options: tuple[str, ...],
+    status: int,
+) -> None:
+    assert gate(tmp_path, design(gamma), baseline, *options) == status
+    out = capsys.readouterr().out
+    assert ("the margin of memory-inequality in mu shrank: 0.00" in out) == (status == 1 and gamma != "0.149")
+
+
+def test_only_required_claims_are_compared(baseline: Path, tmp_path: Path) -> None:
+    assert gate(tmp_path, design("0.1495", require=("gain-bound", "average-consensus")), baseline) == 0
+    assert gate(tmp_path, design("0.4", require=("gain-bound",)), baseline) == 1
+    assert gate(tmp_path, design("0.72", require=("average-consensus",)), baseline) == 1
+    assert gate(tmp_path, design("0.3", require=("average-consensus",)), baseline) == 0
+
+
+def test_a_new_design_has_no_baseline(baseline: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert gate(tmp_path, design("0.1495", name="another"), baseline) == 0
+    assert "proved and checked (no baseline)" in capsys.readouterr().out
+    assert gate(tmp_path, design(), baseline) == 0
+    assert "no baseline" not in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("damage", "reason"),
+    [
+        (lambda text: "{", "expected a certificate, got: $: not JSON"),
+        (
+            lambda text: text.replace('"verdict": "refuted"', '"verdict": "proved"'),
+            "expected a certificate, got: $.",
+        ),
+        (
+            lambda text: text.replace('"lower": "1"', '"lower": "1/2"', 1).replace('"upper": "2"', '"upper": "1"'),
+            "refuses it",
+        ),
+    ],
+)
+def test_a_false_baseline_is_wrong_input(
+    baseline: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], damage, reason: str
+) -> None:
+    (file,) = baseline.iterdir()
+    false = tmp_path / "false"
+    false.mkdir()
+    (false / file.name).write_text(damage(file.read_text()))
+    (tmp_path / "in").mkdir()
+    assert gate(tmp_path / "in", design(), false) == 2
+    assert reason in capsys.readouterr().out
+
+
+def test_a_baseline_that_is_no_folder(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for folder in (tmp_path / "missing", tmp_path / "x.design.toml"):
+        assert gate(tmp_path, design(), folder) == 2
+        assert capsys.readouterr().out == ""
+    (tmp_path / "b").mkdir()
+    (tmp_path / "b" / "the plant%2F1.json").mkdir()
+    assert gate(tmp_path, design(), tmp_path / "b") == 2
