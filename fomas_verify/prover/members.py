@@ -21,8 +21,9 @@ from fomas_verify.kernel.memory import one_step_weight_over
 from fomas_verify.spectrum.loop import Loop
 
 BITS = 128
-PARTS = 256
-"""Parts of the interval of alpha in which the range of mu is enclosed."""
+PARTS, DIVISIONS = 64, 12
+"""Parts of the interval of alpha among which the greatest mu is sought, and how often those that may hold it are
+divided."""
 
 MOST_SAMPLES = 400
 """Samples of a member examined in search of a refutation."""
@@ -42,22 +43,31 @@ def mu_over(design: UncertainDesign, alpha: Interval) -> Interval:
 
 
 def mu_of_every_member(design: UncertainDesign) -> Interval:
-    """An enclosure of the mu of every member; rigorous.
-
-    ``m(alpha) = h^alpha / Gamma(alpha + 1)`` is log-concave: it is least at an end, and between two of equally spaced
-    points at most ``m_i max(1, m_i / m_(i-1))``, and the same from the right.
-    """
+    """An enclosure of the mu of every member; rigorous. In alpha mu is log-concave, so least at an end."""
     alpha = alpha_of(design)
     if alpha.is_exact or design.range_of("mu") is not None:
         return mu_over(design, alpha)
-    found = [mu_over(design, Interval.exactly(alpha.lower + alpha.width * i / PARTS)) for i in range(PARTS + 1)]
-    m = [x.upper for x in found]
-    slack = 1 + Fraction(1, 1 << (BITS // 2))
-    growth = [max(Fraction(1), b / a) * slack for a, b in pairwise(m)]
-    decline = [max(Fraction(1), a / b) * slack for a, b in pairwise(m)]
-    parts = [min(m[i] * growth[i - 1], m[i + 1] * decline[i + 1]) for i in range(1, PARTS - 1)]
-    ends = m[1] * decline[1], m[-2] * growth[-2]
-    return Interval(min(found[0].lower, found[-1].lower), max(*parts, *ends))
+    return Interval(min(mu_over(design, Interval.exactly(end)).lower for end in alpha.ends), _greatest(design, alpha))
+
+
+def _greatest(design: UncertainDesign, alpha: Interval) -> Fraction:
+    """A bound of the greatest mu: between two of equally spaced points, m_i and m_(i+1), it is at most
+    ``m_i max(1, m_i / m_(i-1))``, and the same from the right; the parts where it may be are divided again.
+    """
+    found, slack = Fraction(0), 1 + Fraction(1, 1 << (BITS // 2))
+    for _ in range(DIVISIONS):
+        points = [alpha.lower + alpha.width * i / PARTS for i in range(PARTS + 1)]
+        m = [mu_over(design, Interval.exactly(point)).upper for point in points]
+        growth = [max(Fraction(1), b / a) for a, b in pairwise(m)]
+        decline = [max(Fraction(1), a / b) for a, b in pairwise(m)]
+        inner = [min(m[i] * growth[i - 1], m[i + 1] * decline[i + 1]) for i in range(1, PARTS - 1)]
+        bounds = [x * slack for x in (m[1] * decline[1], *inner, m[-2] * growth[-2])]
+        found = max(found, max(m) * slack)
+        live = [i for i, bound in enumerate(bounds) if bound > found]
+        if not live:
+            return found
+        alpha, last = Interval(points[live[0]], points[live[-1] + 1]), max(bounds)
+    return last
 
 
 def alpha_of(design: UncertainDesign) -> Interval:
