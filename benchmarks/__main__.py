@@ -7,6 +7,9 @@ from collections.abc import Iterator
 from fractions import Fraction
 from pathlib import Path
 
+from benchmarks import simulate
+from benchmarks.gate import COUNT as GATE_COUNT
+from benchmarks.gate import rows as gate_rows
 from benchmarks.measure import Cost, run, typical
 
 PAPER = "examples/paper.toml"
@@ -36,7 +39,10 @@ def rows(folder: Path) -> Iterator[str]:
     """Each measurement as it is made."""
     yield from paper_rows(folder)
     yield from sixty_agents(folder)
+    yield from sampled_rows(folder)
     yield from horizon_rows()
+    yield from (line(*row) for row in simulate.rows())
+    yield from (line(*row) for row in gate_rows(GATE_COUNT, 2))
 
 
 def paper_rows(folder: Path) -> Iterator[str]:
@@ -58,6 +64,23 @@ def sixty_agents(folder: Path) -> Iterator[str]:
     yield line("prove N = 60, wall", f"{prove.wall:.2f} s", "below 3 s")
     check = typical(["-I", "-S", "fomas_verify/checker", certificate], times=3)
     yield line("check N = 60, wall", f"{check.wall:.2f} s", "below 3 s")
+
+
+def sampled_rows(folder: Path) -> Iterator[str]:
+    """Designs whose samples cost most: proved with every value, rate and margin, then checked."""
+    ring = {"graph": {"family": "directed-cycle", "agents": 20}, "alpha": "0.1", "mu": "1/2"}
+    slow = {"graph": {"family": "directed-cycle", "agents": 12}, "alpha": "0.9", "mu": "1/500"}
+    cases = {
+        "N = 50, weighted digraph": (weighted_digraph(50, 3, 1), "prove below 10 s"),
+        "directed 20-cycle, alpha = 0.1": (ring, "seconds"),
+        "directed 12-cycle, mu = 1/500, thousands of samples": (slow, "below 180 s"),
+    }
+    for i, (name, (design, goal)) in enumerate(cases.items()):
+        file, certificate = folder / f"sampled{i}.json", str(folder / f"sampled{i}.certificate.json")
+        file.write_text(json.dumps(design))
+        prove = run([*TOOL, "prove", str(file), "-o", certificate], accepted=(0, 1))
+        check = run(["-I", "-S", "fomas_verify/checker", certificate])
+        yield line(f"check / prove, {name}, CPU", ratio(check.cpu, prove.cpu), f"{goal}, ratio below 1")
 
 
 def horizon_rows() -> Iterator[str]:
