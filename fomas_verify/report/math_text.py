@@ -33,6 +33,8 @@ _SYMBOLS = {
     "gamma": r"\gamma",
     "mu": r"\mu",
     "sigma": r"\sigma",
+    "P^n": "P^n",
+    "Phi_k": r"\Phi_k",
     "P": "P",
     "h": "h",
     "k": "k",
