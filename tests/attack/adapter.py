@@ -35,15 +35,17 @@ def _run(arguments: list[str]) -> subprocess.CompletedProcess[str]:
 
 def prove(design: dict[str, object]) -> Proof:
     """What `verify-design prove` does with a design, in this process; 4 where the prover raises what it must not."""
-    from fomas_verify.design import read_design
+    from fomas_verify.design import Design, read_any
     from fomas_verify.exact.errors import FomasError
-    from fomas_verify.prover.prove import prove as decide
+    from fomas_verify.prover import prove as decide
+    from fomas_verify.prover import prove_uncertain
 
     with tempfile.TemporaryDirectory() as folder:
         source = Path(folder, "design.json")
         source.write_text(json.dumps(design), encoding="utf-8")
         try:
-            proof = decide(read_design(source))
+            read = read_any(source)
+            proof = decide(read) if isinstance(read, Design) else prove_uncertain(read)
             return Proof(proof.exit_status, proof.certificate().encode(), "")
         except FomasError as error:
             return Proof(error.exit_status, b"", str(error))

@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import replace
 from fractions import Fraction
 
-from .model import Design, Edge
+from .model import Design, Edge, Uncertain
 
 F = Fraction
 PAPER_ADJACENCY = ((0, 0, 0, 1, 1), (1, 0, 1, 0, 0), (1, 1, 0, 0, 0), (0, 1, 1, 0, 0), (0, 0, 0, 1, 0))
@@ -229,4 +229,47 @@ KNOWN: dict[str, dict[str, str]] = {
     "paper-at-rest": _known("pppprrrp"),
     "k2-deadbeat-trajectory": _known("pppppppp"),
     "unbalanced-trajectory": _known("rpipiiii"),
+}
+
+
+def family(alpha: tuple[str, str], n: int, edges: tuple[Edge, ...], **ends: tuple[str, str]) -> Uncertain:
+    """An uncertain design; a number that is fixed has equal ends."""
+    return Uncertain((F(alpha[0]), F(alpha[1])), n, edges, **{key: (F(x), F(y)) for key, (x, y) in ends.items()})
+
+
+# Gamma(alpha + 1) is least, 0.88560319441088870..., at alpha = 0.46163...: at h = 1 the largest mu is gamma times
+# 1.12917388545..., inside the interval of alpha; 0.8856 and 0.8857 lie on both sides of the gain bound mu < 1 of K2.
+FAMILIES: dict[str, Uncertain] = {
+    "paper-alpha": family(("0.88", "0.92"), 5, PAPER_EDGES, gamma=("0.15", "0.15"), h=("0.85", "0.85")),
+    "paper-repaired-box": family(("0.895", "0.905"), 5, PAPER_EDGES, gamma=("0.25", "0.26"), h=("0.85", "0.86")),
+    "paper-mu": family(("0.9", "0.9"), 5, PAPER_EDGES, mu=("0.16", "0.39")),
+    "paper-mu-wide": family(("0.9", "0.9"), 5, PAPER_EDGES, mu=("0.15", "0.47")),
+    "k2-inside": family(("0.88", "0.92"), 2, path(2), mu=("0.3", "0.4")),
+    "k2-hump-below": family(("0.3", "0.7"), 2, path(2), gamma=("0.8856", "0.8856"), h=("1", "1")),
+    "k2-hump-above": family(("0.3", "0.7"), 2, path(2), gamma=("0.8857", "0.8857"), h=("1", "1")),
+    "k2-hump": family(("0.3", "0.7"), 2, path(2), gamma=("0.4", "0.4"), h=("1", "1")),
+    "k2-tie": family(("1/2", "0.9"), 2, path(2), mu=("1/2", "1")),
+    "c4-wide": family(("0.7", "0.95"), 4, cycle(4), gamma=("0.2", "0.3"), h=("0.9", "1.4")),
+    "p3-tiny": family(("0.6", "0.600001"), 3, path(3), gamma=("0.5", "0.500001"), h=("0.3", "0.3")),
+    "cycles-h": family(("0.9", "0.9"), 4, WEIGHTED_CYCLES, gamma=("0.2", "0.2"), h=("0.8", "1.25")),
+    "unbalanced-box": family(("0.8", "0.9"), 3, BROKEN["unbalanced"].edges, mu=("1/4", "3")),
+}
+FAMILIES["paper-alpha-trajectory"] = replace(FAMILIES["paper-alpha"], x0=PAPER_X0)
+FAMILIES["k2-inside-at-rest"] = replace(FAMILIES["k2-inside"], x0=(F(7, 3),) * 2)
+
+# By hand, letters as in KNOWN: the issue's text for the paper (0.88: (14) fails); docs/theory section 5 for mu in
+# [0.16, 0.39] and eqL3 up to 0.46844; K2 is 1 - 2 mu on 1perp: 0.2 to 0.4 < 2^0.88 - 1 = 0.84, and mu = 1 is
+# not stable; k2-hump has mu between 0.4/0.90864 and 0.4/0.88560, so 1 - 2 mu lies between 0.0966 and 0.1196, and
+# 2^0.3 - 1 = 0.23.
+KNOWN_FAMILIES: dict[str, dict[str, str]] = {
+    "paper-alpha": _known("pprprrr"),
+    "paper-mu": _known("ppppr"),
+    "paper-mu-wide": _known("pppprrr"),
+    "k2-inside": _known("ppppppp"),
+    "k2-hump": _known("ppppppp"),
+    "k2-hump-below": {"gain-bound": "proved", "perron-eigenvalues": "proved"},
+    "k2-hump-above": {"gain-bound": "refuted", "perron-eigenvalues": "refuted"},
+    "k2-tie": _known("prrrrr"),
+    "unbalanced-box": _known("rririii"),
+    "k2-inside-at-rest": _known("pppppppp"),
 }

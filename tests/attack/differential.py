@@ -7,7 +7,8 @@ true and accepted.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
@@ -17,7 +18,8 @@ from . import oracle
 from .adapter import check_status, prove
 from .form import Document, read
 from .handmade import INFORMATION
-from .model import Design, assumption_1
+from .margin_faults import margin_faults
+from .model import Design, Start, Uncertain, assumption_1
 from .sizes import SIZES, peak, radius, settling, size_holds
 from .truth import GRAPH_VALUES, bound_holds, judge
 
@@ -30,21 +32,20 @@ class Comparison:
     """What was wrong on one design, and how many of its claims were left undecided."""
 
     name: str
-    design: Design
+    design: Design | Uncertain
     faults: tuple[str, ...]
     undecided: int
     certificate: bytes
     verdicts: tuple[tuple[str, str], ...] = ()
 
 
-def _verdict_faults(document: Document, design: Design) -> tuple[list[str], int]:
+def verdict_faults(document: Document, expected: Callable[[str], str | None], names: set[str]) -> tuple[list[str], int]:
+    """Claims that are not those of the contract, or not decided as the oracle does; how many are undecided."""
     given = {claim.id: claim.verdict for claim in document.claims}
-    faults = [
-        f"{claim}: present or absent against the contract" for claim in {*oracle.claims_of(design)} ^ given.keys()
-    ]
+    faults = [f"{claim}: present or absent against the contract" for claim in names ^ given.keys()]
     undecided = 0
     for claim, word in given.items():
-        truth = oracle.verdict(design, claim)
+        truth = expected(claim)
         if word == "undecided":
             undecided += 1
         elif truth is not None and word != truth:
@@ -54,9 +55,12 @@ def _verdict_faults(document: Document, design: Design) -> tuple[list[str], int]
 
 def _value_faults(document: Document, design: Design) -> list[str]:
     expected = {"mu", "threshold", "degree_max"} | (set(GRAPH_VALUES) if assumption_1(design) else set())
-    given = document.values.keys() - {*SIZES}
+    given = document.values.keys() - {*SIZES, "margins"}
     faults = [f"{key}: present or absent against the contract" for key in expected ^ given]
     for key, entry in document.values.items():
+        if key == "margins":
+            faults += margin_faults(design, entry)
+            continue
         if key in SIZES:
             faults += _size_faults(design, key, entry)
             continue
@@ -92,14 +96,35 @@ def _status_fault(document: Document, status: int) -> list[str]:
     return [] if status == expected else [f"prove exited {status}, expected {expected}"]
 
 
+def plain(x0: Start | None) -> Start | None:
+    """x_0 as plain numbers where every agent has one state."""
+    if x0 is None or any(not isinstance(entry, tuple) or len(entry) != 1 for entry in x0):
+        return x0
+    return tuple(entry[0] for entry in x0 if isinstance(entry, tuple))
+
+
 def compare(name: str, design: Design) -> Comparison:
     """Run one design through prover, checker and oracle."""
-    proof = prove(design.mapping(name))
+    return compared(name, design, oracle.verdict, _value_faults)
+
+
+def compared(
+    name: str,
+    source: Any,
+    verdict: Callable[[Any, str], str | None],
+    further: Callable[[Document, Any], list[str]],
+) -> Comparison:
+    """The faults of prover and checker on a design, given the oracle's verdicts and what else to hold against it.
+
+    A certificate writes states of one number each as plain numbers.
+    """
+    proof, design = prove(source.mapping(name)), replace(source, x0=plain(source.x0))
     if not proof.certificate:
         return Comparison(name, design, (f"prove exited {proof.status}: {proof.errors.strip()}",), 0, b"")
     document = read(proof.certificate)
-    faults, undecided = _verdict_faults(document, design)
-    faults += _value_faults(document, design) + _status_fault(document, proof.status)
+    names = {claim for claim in oracle.CLAIMS if claim != "trajectory-norm-bound" or design.x0 is not None}
+    faults, undecided = verdict_faults(document, lambda claim: verdict(design, claim), names)
+    faults += further(document, design) + _status_fault(document, proof.status)
     if document.design != design:
         faults.append(f"the certificate is about another design: {document.design}")
     verdicts = tuple((claim.id, claim.verdict) for claim in document.claims)

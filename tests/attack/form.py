@@ -5,19 +5,18 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from .digits import to_int
-from .model import Design, Edge, Start
+from .fields import Unclear, integer, items, members, one_of, rational
+from .form_margins import margins
+from .form_witness import Claim, family_witness, witness
+from .model import Design, Edge, Ends, Start, Uncertain
 from .oracle import CLAIMS
-from .strict_json import Malformed, Num, Obj, loads
+from .strict_json import Malformed, loads
 
-RATIONAL = re.compile(r"-?[0-9]+(?:/[0-9]+)?\Z")
-INTEGER = re.compile(r"-?(?:0|[1-9][0-9]*)\Z")
 STATEMENTS = dict(
     zip(
         CLAIMS,
@@ -49,86 +48,15 @@ VALUES: dict[str, tuple[str, ...]] = {
 }
 VERDICTS = ("proved", "refuted", "undecided", "inapplicable")
 MOST_AGENTS = 64
-SPECTRAL = ("perron-eigenvalues", "control-bounded", "average-consensus")
-NORM_BOUNDS = {
-    ("control-norm-bound", "proved"): (("mu", "lambda_max_upper"), ("samples", "powers")),
-    ("control-norm-bound", "refuted"): (("x0", "k"),),
-    ("trajectory-norm-bound", "proved"): ((), ("mu", "lambda_max_upper"), ("samples", "powers")),
-    ("trajectory-norm-bound", "refuted"): (("k",),),
-}
-
-
-class Unclear(Exception):
-    """The format page does not say, or the document is beyond what the oracle affords."""
-
-
-@dataclass(frozen=True)
-class Claim:
-    """A claim as it stands in the certificate, its witness typed."""
-
-    id: str
-    verdict: str
-    statement: str
-    witness: dict[str, Any]
 
 
 @dataclass(frozen=True)
 class Document:
     """A certificate of good form."""
 
-    design: Design
+    design: Design | Uncertain
     values: dict[str, dict[str, Any]]
     claims: tuple[Claim, ...]
-
-
-def rational(item: Any) -> Fraction:
-    """A rational in a string."""
-    if not isinstance(item, str) or not RATIONAL.match(item):
-        raise Malformed("expected a rational in a string")
-    if sum(map(str.isdigit, item)) > 100_000:
-        raise Malformed("more than 100000 digits")
-    top, _, bottom = item.partition("/")
-    if bottom and not bottom.strip("0"):
-        raise Malformed("denominator zero")
-    return Fraction(to_int(top), to_int(bottom or "1"))
-
-
-def integer(item: Any, least: int) -> int:
-    """A JSON integer, at least `least`."""
-    if not isinstance(item, Num) or not INTEGER.match(item.text):
-        raise Malformed("expected an integer")
-    if item.text == "-0":
-        raise Unclear("-0 for a count")
-    if len(item.text) > 80:
-        raise Malformed("more than 80 digits")
-    number = to_int(item.text)
-    if number < least:
-        raise Malformed("integer out of range")
-    return number
-
-
-def items(item: Any, least: int = 0) -> list[Any]:
-    """A JSON array of at least `least` entries."""
-    if not isinstance(item, list) or len(item) < least:
-        raise Malformed("expected an array")
-    return item
-
-
-def members(item: Any, required: tuple[str, ...], optional: tuple[str, ...] = ()) -> dict[str, Any]:
-    """A JSON object with the required keys and none but the optional ones besides."""
-    if not isinstance(item, Obj):
-        raise Malformed("expected an object")
-    keys = set(item.keys())
-    if not set(required) <= keys or not keys <= {*required, *optional}:
-        raise Malformed("keys missing or unknown")
-    return dict(item.pairs)
-
-
-def one_of(item: Any, allowed: tuple[str, ...]) -> str:
-    """One of the strings allowed."""
-    if not isinstance(item, str) or item not in allowed:
-        raise Malformed("unknown word")
-    return item
 
 
 def _is_surrogate(char: str) -> bool:
@@ -167,111 +95,56 @@ def _alpha(item: Any) -> Fraction:
     return alpha
 
 
-def _design(item: Any) -> Design:
+def _positive(item: Any) -> Fraction:
+    number = rational(item)
+    if number <= 0:
+        raise Malformed("gamma, mu and h are positive")
+    return number
+
+
+def _ends(item: Any, number: Callable[[Any], Fraction]) -> Ends:
+    if not isinstance(item, list):
+        return number(item), number(item)
+    if len(item) != 2:
+        raise Malformed("an interval has two ends")
+    low, high = number(item[0]), number(item[1])
+    if low >= high:
+        raise Malformed("an interval from the lower end to the upper")
+    return low, high
+
+
+def _design(item: Any) -> Design | Uncertain:
     found = members(item, ("alpha", "agents", "edges", "require"), ("gamma", "mu", "h", "x0"))
     if ("gamma" in found) == ("mu" in found) or ("gamma" in found and "h" not in found):
         raise Malformed("exactly one of gamma and mu; gamma needs h")
-    alpha, agents = _alpha(found["alpha"]), integer(found["agents"], 2)
-    positive = {key: rational(found[key]) for key in ("gamma", "mu", "h") if key in found}
-    if any(x <= 0 for x in positive.values()):
-        raise Malformed("gamma, mu and h are positive")
+    agents = integer(found["agents"], 2)
+    ends = {key: _ends(found[key], _positive) for key in ("gamma", "mu", "h") if key in found}
     edges = _edges(found["edges"], agents)
     x0 = _x0(found["x0"], agents) if "x0" in found else None
     wanted = [one_of(claim, CLAIMS) for claim in items(found["require"], 1)]
     if len(set(wanted)) != len(wanted):
         raise Malformed("repeated claim in require")
-    return Design(alpha, agents, edges, positive.get("mu"), positive.get("gamma"), positive.get("h"), x0)
+    family = Uncertain(_ends(found["alpha"], _alpha), agents, edges, x0=x0, **ends)
+    uncertain = any(isinstance(found.get(key), list) for key in ("alpha", "gamma", "mu", "h"))
+    return family if uncertain else family.member({})
 
 
-def triangle(item: Any, size: int) -> list[list[Fraction]]:
-    """The symmetric matrix whose lower triangle is given row by row."""
-    rows = items(item)
-    if len(rows) != size or any(len(items(row)) != i for i, row in enumerate(rows, 1)):
-        raise Malformed("not a lower triangle of the right size")
-    lower = [[rational(x) for x in row] for row in rows]
-    return [[lower[max(i, j)][min(i, j)] for j in range(size)] for i in range(size)]
+def _value(key: str, item: Any, agents: int) -> dict[str, Any]:
+    if key == "margins":
+        return margins(item, agents)
+    return {name: integer(x, 0) if name == "at" else rational(x) for name, x in members(item, VALUES[key]).items()}
 
 
-def _polynomial(item: Any) -> dict[str, Any]:
-    found = members(item, ("polynomial", "lower", "upper"))
-    coefficients = tuple(rational(c) for c in items(found["polynomial"], 2))
-    return {"polynomial": coefficients, "lower": rational(found["lower"]), "upper": rational(found["upper"])}
-
-
-def _imbalance(item: Any) -> dict[str, Any]:
-    found = members(item, ("agent", "in", "out"))
-    return {"agent": integer(found["agent"], 1), "in": rational(found["in"]), "out": rational(found["out"])}
-
-
-def _pair(item: Any) -> list[int]:
-    pair = [integer(x, 1) for x in items(item)]
-    if len(pair) != 2:
-        raise Malformed("expected two agents")
-    return pair
-
-
-def _vector(item: Any, agents: int) -> list[Fraction]:
-    if len(items(item)) != agents:
-        raise Malformed("expected one rational for each agent")
-    return [rational(x) for x in item]
-
-
-def _power(item: Any) -> int:
-    power = integer(item, 1)
-    if power > 2**256:
-        raise Malformed("power beyond 2^256")
-    return power
-
-
-def _shapes(claim: str, verdict: str) -> tuple[tuple[tuple[str, ...], ...], bool]:
-    """The key sets a witness may have, and whether any non-empty part of the first will do."""
-    if verdict == "undecided":
-        return (("bits",),), False
-    if (claim, verdict) in NORM_BOUNDS:
-        return NORM_BOUNDS[claim, verdict], False
-    if claim in SPECTRAL and verdict in ("proved", "refuted"):
-        return ((("mu", "Q"),) if verdict == "proved" else (("mu", "power"), ("mu", "Y"))), False
-    if claim == "beta-contraction" and verdict == "proved":
-        return (("mu", "lambda2"), ("mu", "lambda2_upper", "lambda_max_upper")), False
-    if verdict == "refuted" and claim != "gain-bound":
-        keys: dict[str, tuple[str, ...]] = {
-            "graph-assumption": ("unreachable", "imbalance"),
-            "memory-inequality": ("k",),
-        }
-        return (keys.get(claim, ("e",)),), claim == "graph-assumption"
-    return ((),), False
-
-
-def _witness(item: Any, claim: str, verdict: str, agents: int) -> dict[str, Any]:
-    if not isinstance(item, Obj):
-        raise Malformed("expected an object")
-    shapes, partial = _shapes(claim, verdict)
-    keys = set(item.keys())
-    if not (any(keys == set(shape) for shape in shapes) or (partial and keys and keys <= set(shapes[0]))):
-        raise Malformed("witness of another shape")
-    readers: dict[str, Callable[[Any], Any]] = {
-        "bits": lambda x: integer(x, 1),
-        "Q": lambda x: triangle(x, agents - 1),
-        "Y": lambda x: triangle(x, agents - 1),
-        "power": _power,
-        "lambda2": _polynomial,
-        "unreachable": _pair,
-        "imbalance": _imbalance,
-        "k": lambda x: integer(x, 1 if (claim, verdict) in NORM_BOUNDS else 0),
-        "samples": lambda x: integer(x, 0),
-        "powers": lambda x: integer(x, 1),
-        "x0": lambda x: _vector(x, agents),
-        "e": lambda x: _vector(x, agents),
-    }
-    return {key: readers.get(key, rational)(value) for key, value in item.pairs}
-
-
-def _claim(item: Any, agents: int) -> Claim:
+def _claim(item: Any, design: Design | Uncertain) -> Claim:
     found = members(item, ("id", "verdict", "statement", "witness"))
     name, verdict = one_of(found["id"], CLAIMS), one_of(found["verdict"], VERDICTS)
     if not isinstance(found["statement"], str) or any(map(_is_surrogate, found["statement"])):
         raise Malformed("expected a string of characters")
-    return Claim(name, verdict, found["statement"], _witness(found["witness"], name, verdict, agents))
+    if isinstance(design, Uncertain):
+        given = family_witness(found["witness"], name, verdict, design.agents, tuple(design.ends()))
+    else:
+        given = witness(found["witness"], name, verdict, design.agents)
+    return Claim(name, verdict, found["statement"], given)
 
 
 def read(data: bytes) -> Document:
@@ -288,11 +161,9 @@ def read(data: bytes) -> Document:
     if any(map(_is_surrogate, tool["version"])):
         raise Malformed("a lone surrogate is no character")
     design = _design(found["design"])
-    values = {
-        key: {name: integer(x, 0) if name == "at" else rational(x) for name, x in members(entry, VALUES[key]).items()}
-        for key, entry in members(found["values"], (), tuple(VALUES)).items()
-    }
-    claims = tuple(_claim(item, design.agents) for item in items(found["claims"], 1))
+    given = members(found["values"], (), (*VALUES, "margins"))
+    values = {key: _value(key, entry, design.agents) for key, entry in given.items()}
+    claims = tuple(_claim(item, design) for item in items(found["claims"], 1))
     if len({claim.id for claim in claims}) != len(claims):
         raise Malformed("repeated claim")
     if design.agents > MOST_AGENTS:

@@ -16,9 +16,11 @@ from mpmath import mp
 from . import oracle, sizes, ties
 from .digits import ratio
 from .exact import Matrix, charpoly, matmul, transpose
-from .form import STATEMENTS, VALUES, Claim
+from .form import STATEMENTS, VALUES
+from .form_witness import Claim
 from .model import (
     Design,
+    Uncertain,
     adjacency,
     assumption_1,
     degree_max,
@@ -32,7 +34,7 @@ from .model import (
 from .oracle import _orthonormal_basis
 from .response import on_1perp, trajectory
 from .strict_json import Num, Obj, dumps
-from .truth import GRAPH_VALUES, _shown
+from .truth import GRAPH_VALUES, shown
 
 DIGITS = 36
 SETTLE_TO = Fraction(1, 100)
@@ -70,7 +72,7 @@ def _triangle(form: Matrix) -> list[list[str]]:
     return [[ratio(x) for x in row[: i + 1]] for i, row in enumerate(form)]
 
 
-def _lyapunov(design: Design) -> Iterator[dict[str, Any]]:
+def lyapunov_forms(design: Design) -> Iterator[dict[str, Any]]:
     """Q = I - 1 1^T / N, the norm itself; then Q = sum_k (P^T)^k P^k by Smith's doubling, rounded."""
     t, n = enclosure(design, "mu")[1], design.agents
     yield {"mu": t, "Q": [[(i == j) - Fraction(1, n) for j in range(n - 1)] for i in range(n - 1)]}
@@ -87,7 +89,7 @@ def _lyapunov(design: Design) -> Iterator[dict[str, Any]]:
             yield {"mu": t, "Q": [[_dyadic(q[max(i, j), min(i, j)], bits) for j in range(n - 1)] for i in range(n - 1)]}
 
 
-def _growing_power(design: Design) -> Iterator[dict[str, Any]]:
+def growing_powers(design: Design) -> Iterator[dict[str, Any]]:
     t = enclosure(design, "mu")[0]
     rows = perron_on_differences(design, t)
     with mp.workdps(60):
@@ -108,7 +110,7 @@ def _null_space(a: Matrix) -> Matrix:
     return [[Fraction(int(x.p), int(x.q)) for x in v] for v in matrix.T.nullspace()]
 
 
-def _invariant_form(design: Design) -> Iterator[dict[str, Any]]:
+def invariant_forms(design: Design) -> Iterator[dict[str, Any]]:
     """Y = sum_{j<m} (Pc^T)^j W^T W Pc^j over the rational left null space W of Pc^m - I."""
     t = enclosure(design, "mu")[0]
     p = perron_on_differences(design, t)
@@ -170,10 +172,10 @@ def candidates(design: Design, claim: str, verdict: str) -> Iterator[dict[str, A
     """Witnesses worth trying, best first."""
     if claim in ("perron-eigenvalues", "control-bounded", "average-consensus") and verdict != "inapplicable":
         if verdict == "proved":
-            yield from _lyapunov(design)
+            yield from lyapunov_forms(design)
         else:
-            yield from _invariant_form(design)
-            yield from _growing_power(design)
+            yield from invariant_forms(design)
+            yield from growing_powers(design)
     elif claim in ("control-norm-bound", "trajectory-norm-bound") and verdict != "inapplicable":
         yield from _norm_bound(design, claim, verdict)
     elif claim == "beta-contraction" and verdict == "proved":
@@ -254,18 +256,14 @@ def _rate_entry(design: Design) -> dict[str, Any]:
     return {}
 
 
-def _tree(item: Any) -> Any:
+def tree_of(item: Any) -> Any:
     if isinstance(item, Fraction):
         return ratio(item)
     if isinstance(item, int):
         return Num(str(item))
     if isinstance(item, dict):
-        return Obj([(key, _tree(value)) for key, value in item.items()])
-    return [_tree(value) for value in item] if isinstance(item, (list, tuple)) else item
-
-
-def _written(witness: dict[str, Any]) -> Any:
-    return _tree({key: _triangle(value) if key in "QY" else value for key, value in witness.items()})
+        return Obj([(key, _triangle(value) if key in "QY" else tree_of(value)) for key, value in item.items()])
+    return [tree_of(value) for value in item] if isinstance(item, (list, tuple)) else item
 
 
 def claim_tree(design: Design, claim: str) -> Obj | None:
@@ -274,24 +272,42 @@ def claim_tree(design: Design, claim: str) -> Obj | None:
     if verdict is None:
         return None
     for witness in candidates(design, claim, verdict):
-        if verdict == "inapplicable" or _shown(design, Claim(claim, verdict, STATEMENTS[claim], witness)):
+        if verdict == "inapplicable" or shown(design, Claim(claim, verdict, STATEMENTS[claim], witness)):
             named = [("id", claim), ("verdict", verdict), ("statement", STATEMENTS[claim])]
-            return Obj([*named, ("witness", _written(witness))])
+            return Obj([*named, ("witness", tree_of(witness))])
     return None
 
 
-def design_tree(design: Design) -> Obj:
+def design_tree(design: Design | Uncertain) -> Obj:
     """The design as section 2 writes it."""
-    given = {"alpha": design.alpha, "gamma": design.gamma, "mu": design.mu, "h": design.h}
+    if isinstance(design, Uncertain):
+        known: dict[str, Any] = {key: x if x == y else [x, y] for key, (x, y) in design.ends().items()}
+    else:
+        given = {"alpha": design.alpha, "gamma": design.gamma, "mu": design.mu, "h": design.h}
+        known = {key: value for key, value in given.items() if value is not None}
     required = [claim for claim in oracle.CLAIMS if claim not in INFORMATION]
     edges = [[source, target, weight] for source, target, weight in sorted(design.edges)]
-    known = {key: value for key, value in given.items() if value is not None}
     start = {} if design.x0 is None else {"x0": design.x0}
-    return Obj(_tree({**known, "agents": design.agents, "edges": edges, **start, "require": required}).pairs)
+    return Obj(tree_of({**known, "agents": design.agents, "edges": edges, **start, "require": required}).pairs)
 
 
-def certificate(design: Design, version: str = "0") -> bytes:
-    """A true certificate of the design with every claim for which a witness was found."""
+def certificate_of(design: Design | Uncertain, values: dict[str, Any], claims: list[Obj]) -> bytes:
+    """The certificate with these values and claims."""
+    tree = Obj(
+        [
+            ("format", "fomas-certificate/1"),
+            ("kind", "design"),
+            ("design", design_tree(design)),
+            ("values", tree_of(values)),
+            ("claims", claims),
+            ("tool", tree_of({"name": "fomas_verify", "version": "0"})),
+        ]
+    )
+    return (dumps(tree) + "\n").encode()
+
+
+def certificate(design: Design, margins: dict[str, Any] | None = None) -> bytes:
+    """A true certificate of the design with every claim for which a witness was found, and the margins given."""
     keys = [
         key
         for key in ("mu", "threshold", "degree_max", *GRAPH_VALUES)
@@ -299,16 +315,6 @@ def certificate(design: Design, version: str = "0") -> bytes:
     ]
     ends = {key: enclosure(design, key) for key in keys}
     values: dict[str, Any] = {key: {"lower": lower, "upper": upper} for key, (lower, upper) in ends.items()}
-    values |= _size_entries(design)
+    values |= _size_entries(design) | ({"margins": margins} if margins else {})
     claims = [tree for claim in oracle.claims_of(design) if (tree := claim_tree(design, claim)) is not None]
-    tree = Obj(
-        [
-            ("format", "fomas-certificate/1"),
-            ("kind", "design"),
-            ("design", design_tree(design)),
-            ("values", _tree(values)),
-            ("claims", claims),
-            ("tool", _tree({"name": "fomas_verify", "version": version})),
-        ]
-    )
-    return (dumps(tree) + "\n").encode()
+    return certificate_of(design, values, claims)

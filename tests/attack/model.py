@@ -45,6 +45,40 @@ class Design:
         return {"name": name, **numbers, **start, "graph": {"agents": self.agents, "edges": edges}}
 
 
+Ends = tuple[Fraction, Fraction]
+
+
+@dataclass(frozen=True)
+class Uncertain:
+    """A design whose numbers lie in intervals; one that is fixed has equal ends."""
+
+    alpha: Ends
+    agents: int
+    edges: tuple[Edge, ...]
+    mu: Ends | None = None
+    gamma: Ends | None = None
+    h: Ends | None = None
+    x0: Start | None = None
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "edges", tuple(sorted(self.edges)))
+
+    def ends(self) -> dict[str, Ends]:
+        """The numbers given, as intervals."""
+        given = {"alpha": self.alpha, "gamma": self.gamma, "mu": self.mu, "h": self.h}
+        return {key: ends for key, ends in given.items() if ends is not None}
+
+    def member(self, numbers: dict[str, Fraction], side: int = 0) -> Design:
+        """The member with these numbers, the others at their lower (0) or upper (1) ends."""
+        chosen = {**{key: ends[side] for key, ends in self.ends().items()}, **numbers}
+        return Design(agents=self.agents, edges=self.edges, x0=self.x0, **chosen)
+
+    def mapping(self, name: str) -> dict[str, object]:
+        """The design as a user would write it, for a design file."""
+        given = {key: [str(x) for x in ends] for key, ends in self.ends().items() if ends[0] != ends[1]}
+        return {**self.member({}).mapping(name), **given}
+
+
 def _written(entry: Fraction | tuple[Fraction, ...]) -> str | list[str]:
     return [str(x) for x in entry] if isinstance(entry, tuple) else str(entry)
 

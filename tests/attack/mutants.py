@@ -10,6 +10,7 @@ from random import Random
 from typing import Any
 
 from .mutate import Mutant, edits, form_edits, found, meaning_edits, named, paths, replaced, value_mutants
+from .mutate_ends import fitted
 from .strict_json import Obj, dumps, loads
 
 
@@ -136,6 +137,8 @@ def mutant(names: Sequence[str], trees: Sequence[Obj], seed: int, index: int) ->
     """The mutant with this index under this seed."""
     random = Random(f"{seed}/{index}")
     k = random.randrange(len(trees))
+    if random.random() < 0.25 and (made := fitted(names[k], trees[k], random)) is not None:
+        return made
     kind = random.choices((single, textual, whole, None, single), weights=(60, 8, 12, 14, 6))[0]
     if kind is None:
         return crossed(names, trees, random)

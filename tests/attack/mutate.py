@@ -295,6 +295,8 @@ def _invented(key: str) -> Obj:
 
 
 def _widened(entry: Obj) -> Obj:
+    if not {"lower", "rho"} & {*entry.keys()}:
+        return entry
     thousandth = Fraction(1, 1000)
     change: dict[str, Callable[[Fraction], Fraction]] = {
         "lower": lambda x: x - thousandth,

@@ -11,12 +11,13 @@ from functools import partial
 
 from mpmath import mp
 
-from . import ties
+from . import oracle, ties
 from .bounds import is_symmetric, memory_at_0
-from .form import Claim
-from .gain import Truth, both, mu_at_most
+from .form_witness import Claim
+from .gain import Truth, both, mu_at_least, mu_at_most
 from .model import Design
 from .response import Response, all_true, along, error_columns, on_1perp, trajectory
+from .spectral_witness import leaves
 
 
 def _exceeds(controls: Response, k: int) -> Truth:
@@ -48,8 +49,13 @@ def _closed_form(design: Design, t: Fraction, r: Fraction) -> Truth:
 
 
 def control_shown(design: Design, claim: Claim) -> Truth:
-    """The three witnesses of `control-norm-bound`."""
+    """The witnesses of `control-norm-bound`."""
     witness = claim.witness
+    if not witness:
+        return oracle.decide(design, "repaired-condition").truth
+    if "power" in witness:
+        start = both(witness["mu"] > 0, mu_at_least(design, witness["mu"]))
+        return start and both(start, leaves(design, witness["mu"], witness))
     if claim.verdict == "refuted":
         start = (tuple(witness["x0"]),)
         return any(error_columns(design, start)[0]) and _exceeds(along(design, start), witness["k"])
@@ -59,10 +65,12 @@ def control_shown(design: Design, claim: Claim) -> Truth:
 
 
 def trajectory_shown(design: Design, claim: Claim) -> Truth:
-    """The four witnesses of `trajectory-norm-bound`."""
+    """The witnesses of `trajectory-norm-bound`."""
     controls, witness = trajectory(design), claim.witness
     if claim.verdict == "refuted":
         return controls is not None and _exceeds(controls, witness["k"])
     if "samples" in witness:
         return _covered(design, controls, witness["samples"], witness["powers"])
-    return _closed_form(design, witness["mu"], witness["lambda_max_upper"]) if witness else controls is None
+    if witness:
+        return _closed_form(design, witness["mu"], witness["lambda_max_upper"])
+    return controls is None or oracle.decide(design, "repaired-condition").truth

@@ -133,8 +133,18 @@ def _started(random: Random, design: Design) -> Design:
         return design
     few = [F(random.randint(-99, 99), 10) for _ in range(n)]
     if kind == "few digits":
-        return replace(design, x0=tuple(few if random.random() < 0.9 else [few[0]] * n))
+        few = few if random.random() < 0.9 else [few[0]] * n
+        return replace(design, x0=tuple(few) if random.random() < 0.6 else _vectors(random, few))
     return replace(design, x0=_along_an_eigenvector(design, random.choice((2, 4)) if kind == "slowest" else 15))
+
+
+def _vectors(random: Random, first: list[Fraction]) -> tuple[tuple[Fraction, ...], ...]:
+    """x_0 of agents with several states, of which some may agree from the start."""
+    n, states = len(first), random.randint(0, 2)
+    columns = [first, *([F(random.randint(-9, 9), 2) for _ in range(n)] for _ in range(states))]
+    if random.random() < 0.3:
+        columns.append([F(5, 3)] * n)
+    return tuple(zip(*columns, strict=True))
 
 
 def _along_an_eigenvector(design: Design, decimals: int) -> tuple[Fraction, ...]:

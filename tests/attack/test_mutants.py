@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+from random import Random
+
 import pytest
 
 from .adapter import check_status, command_line_status, prove_json
+from .conftest import WITH_MARGINS
 from .designs import NAMED
 from .duel import Score, duel, unacceptable
 from .mutants import mutants, sweep
+from .mutate import Mutant
+from .mutate_ends import fitted
+from .strict_json import loads
 from .truth import judge
 
 GOLDEN = (
@@ -35,14 +41,38 @@ def assert_stood(score: Score) -> None:
 
 
 @pytest.fixture(scope="module")
-def golden(handmade: dict[str, bytes]) -> dict[str, bytes]:
+def golden(handmade: dict[str, bytes], with_margins: dict[str, bytes]) -> dict[str, bytes]:
     """The prover's certificates of some designs, and the ones made by hand of all."""
-    return {**handmade, **{f"{name}, proved": prove_json(NAMED[name].mapping(name)) for name in GOLDEN}}
+    proved = {f"{name}, proved": prove_json(NAMED[name].mapping(name)) for name in GOLDEN}
+    return {**handmade, **with_margins, **proved}
 
 
 @pytest.mark.parametrize("name", sorted(NAMED))
 def test_certificates_made_without_the_prover_are_accepted(handmade, name):
     assert check_status(handmade[name]) == 0
+
+
+@pytest.mark.parametrize("name", WITH_MARGINS)
+def test_margins_made_without_the_prover_are_accepted(with_margins, name):
+    assert judge(with_margins[f"{name}, margins"]).word == "true"
+    assert check_status(with_margins[f"{name}, margins"]) == 0
+
+
+def drawn(certificates: dict[str, bytes], count: int) -> list[Mutant]:
+    """Mutants by the edits that know margins, boxes and members."""
+    trees = [(name, loads(data)) for name, data in certificates.items()]
+    made = (fitted(*trees[k % len(trees)], Random(f"ends {k}")) for k in range(count))
+    return [mutant for mutant in made if mutant is not None]
+
+
+def test_forty_mutants_of_margins(with_margins):
+    assert_stood(duel(drawn(with_margins, 40)))
+
+
+@pytest.mark.slow
+def test_six_hundred_mutants_of_margins(with_margins, golden):
+    proved = {name: data for name, data in golden.items() if name.endswith("proved")}
+    assert_stood(duel(drawn({**with_margins, **proved}, 600)))
 
 
 def test_two_hundred_mutants(golden):

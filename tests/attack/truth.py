@@ -15,24 +15,27 @@ from typing import Any
 
 from mpmath import mp
 
-from . import oracle, ties
-from .exact import Matrix, Root, combine, count_roots, is_pd, is_psd, is_psd_at, matmul, sign_at, transpose
-from .form import STATEMENTS, Claim, Document, Unclear, read
+from . import margins, oracle, ties
+from .exact import Matrix, Root, combine, count_roots, is_pd, is_psd_at, matmul, sign_at, transpose
+from .fields import Unclear
+from .form import STATEMENTS, Document, read
+from .form_witness import Claim
 from .gain import Truth, both, mu_at_least, mu_at_most, positive
 from .model import (
     Design,
+    Uncertain,
     adjacency,
     assumption_1,
     degree_max,
     in_and_out,
     laplacian,
     on_1perp,
-    perron_on_differences,
     reachability,
     symmetric_part,
 )
 from .norm_witness import control_shown, trajectory_shown
 from .sizes import SIZES, size_holds
+from .spectral_witness import leaves, stays
 from .strict_json import Malformed
 
 GRAPH_VALUES = ("lambda2", "beta", "sigma")
@@ -91,6 +94,8 @@ def bound_holds(design: Design, key: str, bound: Fraction, upper: bool) -> Truth
 def _value(design: Design, key: str, entry: dict[str, Any]) -> Truth:
     if key in SIZES:
         return size_holds(design, key, entry)
+    if key == "margins":
+        return margins.holds(design, entry)
     lower, upper = entry["lower"], entry["upper"]
     if key in GRAPH_VALUES and not assumption_1(design):
         return False
@@ -109,46 +114,12 @@ def _graph(design: Design, witness: dict[str, Any]) -> Truth:
     return holds
 
 
-def _step(design: Design, t: Fraction, form: Matrix) -> Matrix:
-    """Pc(t)^T form Pc(t) - form."""
-    p = perron_on_differences(design, t)
-    return combine(Fraction(1), matmul(transpose(p), matmul(form, p)), Fraction(-1), form)
-
-
-def _negated(form: Matrix) -> Matrix:
-    return [[-x for x in row] for row in form]
-
-
-def trace_exceeds(design: Design, t: Fraction, power: int) -> Truth:
-    """abs trace(Pc(t)^power) > N - 1: exactly for small powers, by squaring with digits to spare for large ones."""
-    rows = perron_on_differences(design, t)
-    if power <= 32:
-        product = rows
-        for _ in range(power - 1):
-            product = matmul(product, rows)
-        return abs(sum((product[i][i] for i in range(len(rows))), Fraction(0))) > len(rows)
-
-    def margin(dps: int) -> Any:
-        with mp.workdps(2 * dps + 400):
-            p, base, left = mp.eye(len(rows)), mp.matrix([[oracle.real(x) for x in row] for row in rows]), power
-            while left:
-                p, base, left = (p * base if left & 1 else p), base * base, left >> 1
-            return abs(mp.fsum(p[i, i] for i in range(len(rows)))) - len(rows)
-
-    return positive(design, margin)
-
-
 def _spectral(design: Design, claim: Claim) -> Truth:
-    t, witness = claim.witness["mu"], claim.witness
+    t = claim.witness["mu"]
     if claim.verdict == "proved":
-        return both(mu_at_most(design, t), is_pd(witness["Q"]), is_pd(_negated(_step(design, t, witness["Q"]))))
+        return both(mu_at_most(design, t), stays(design, t, claim.witness["Q"]))
     start = both(t > 0, mu_at_least(design, t))
-    if start is False:
-        return False
-    if "power" in witness:
-        return both(start, trace_exceeds(design, t, witness["power"]))
-    form = witness["Y"]
-    return both(start, any(any(row) for row in form), is_psd(form), is_psd(_step(design, t, form)))
+    return start and both(start, leaves(design, t, claim.witness))
 
 
 def _square_root(x: Fraction) -> Fraction | None:
@@ -201,18 +172,20 @@ def _by_polynomial(design: Design, t: Fraction, given: dict[str, Any]) -> Truth:
     return sign_at((Fraction(1), -t), root) >= 0 and is_psd_at(form, 2, root)
 
 
-def _contraction(design: Design, claim: Claim) -> Truth:
-    witness = claim.witness
-    if claim.verdict == "refuted":
-        return _stretch(design, witness["e"], oracle.beta, "beta")
+def contraction_form_shown(design: Design, witness: dict[str, Any]) -> Truth:
+    """What a witness of `beta-contraction` proved says but t >= mu."""
     t = witness["mu"]
     if isinstance(witness.get("lambda2"), dict):
-        return both(mu_at_most(design, t), _by_polynomial(design, t, witness["lambda2"]))
+        return _by_polynomial(design, t, witness["lambda2"])
     s, r, a = witness["lambda2_upper"], witness["lambda_max_upper"], adjacency(design)
-    symmetric = a == transpose(a)
-    inside = t * s <= 1 and t * (s + r) <= 2
-    ends = symmetric and inside and _lambda2_at_most(design, s) and ties.eigenvalues_at_most(design, r)
-    return both(ends, mu_at_most(design, t))
+    inside = a == transpose(a) and t * s <= 1 and t * (s + r) <= 2
+    return inside and _lambda2_at_most(design, s) and ties.eigenvalues_at_most(design, r)
+
+
+def _contraction(design: Design, claim: Claim) -> Truth:
+    if claim.verdict == "refuted":
+        return _stretch(design, claim.witness["e"], oracle.beta, "beta")
+    return both(mu_at_most(design, claim.witness["mu"]), contraction_form_shown(design, claim.witness))
 
 
 def _memory(design: Design, k: int) -> Truth:
@@ -220,7 +193,7 @@ def _memory(design: Design, k: int) -> Truth:
     return None if answer.truth is None else failure == k and k in (0, 1)
 
 
-def _shown(design: Design, claim: Claim) -> Truth:
+def shown(design: Design, claim: Claim) -> Truth:
     """Whether the witness shows its claim."""
     if claim.id in ("perron-eigenvalues", "control-bounded", "average-consensus"):
         return _spectral(design, claim)
@@ -239,7 +212,8 @@ def _shown(design: Design, claim: Claim) -> Truth:
     return True
 
 
-def _claim(design: Design, claim: Claim) -> Truth:
+def claim_holds(design: Design, claim: Claim) -> Truth:
+    """Whether a claim stands in a certificate truly, with a witness that shows it."""
     if claim.statement != STATEMENTS[claim.id] or claim.id not in oracle.claims_of(design):
         return False
     applicable = claim.id in oracle.ANY_GRAPH or assumption_1(design)
@@ -250,13 +224,17 @@ def _claim(design: Design, claim: Claim) -> Truth:
     truth = oracle.verdict(design, claim.id)
     if truth is not None and truth != claim.verdict:
         return False
-    return both(None if truth is None else True, _shown(design, claim))
+    return both(None if truth is None else True, shown(design, claim))
 
 
 def _parts(document: Document) -> list[tuple[str, Truth]]:
     design = document.design
+    if isinstance(design, Uncertain):
+        from . import family_truth
+
+        return family_truth.parts(design, document)
     values = [(key, _value(design, key, entry)) for key, entry in document.values.items()]
-    return values + [(claim.id, _claim(design, claim)) for claim in document.claims]
+    return values + [(claim.id, claim_holds(design, claim)) for claim in document.claims]
 
 
 def judge(data: bytes) -> Judgement:
