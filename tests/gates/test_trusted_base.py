@@ -20,7 +20,10 @@ def lines(*patterns: str) -> int:
         ("`fomas_verify/checker/`", ["fomas_verify/checker/*.py"]),
         ("certificate-format.md", ["docs/certificate-format.md"]),
         ("theory.md", ["docs/theory.md"]),
-        ("`proofs/Statements.v`, `proofs/Statements/` and `proofs/Model/`", ["proofs/Statements.v", "proofs/Statements/*.v", "proofs/Model/*.v"]),
+        (
+            "`proofs/Statements.v`, `proofs/Statements/` and `proofs/Model/`",
+            ["proofs/Statements.v", "proofs/Statements/*.v", "proofs/Model/*.v"],
+        ),
     ],
 )
 def test_the_count(row: str, patterns: list[str]) -> None:
