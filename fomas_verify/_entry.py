@@ -4,9 +4,12 @@ Exit status 1 says "refuted", so nothing unforeseen may end with it: an uncaught
 reader that went away 141 (both as a shell reports the signals).
 """
 
+import errno
 import os
 import sys
 
+CANNOT_WRITE = 2
+UNWRITABLE = (errno.ENOSPC, errno.EFBIG, errno.EIO, errno.EDQUOT)
 INTERNAL_ERROR = 4
 INTERRUPTED = 130
 READER_GONE = 141
@@ -32,6 +35,14 @@ def main() -> None:
     except KeyboardInterrupt:
         _drop_output()
         status = INTERRUPTED
+    except OSError as error:
+        if error.filename is None and error.errno in UNWRITABLE:
+            sys.stderr.write(f"verify-design: standard output: cannot write: {os.strerror(error.errno)}\n")
+            status = CANNOT_WRITE
+        else:
+            _report(error)
+            status = INTERNAL_ERROR
+        _drop_output()
     except Exception as error:
         _report(error)
         _drop_output()

@@ -99,4 +99,7 @@ def _reason(found: Search) -> str:
 
 def remedy(loop: Loop) -> str:
     """The repaired condition suffices."""
-    return f"the repaired condition suffices: {repaired_condition.remedy(loop)}"
+    found = repaired_condition.remedy(loop)
+    if found.startswith("no gamma"):
+        return f"none by the repaired condition, which would suffice: {found}"
+    return f"the repaired condition suffices: {found}"

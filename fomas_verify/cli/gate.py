@@ -82,6 +82,10 @@ def command(
     reports = {"junit": junit, "sarif": sarif, "markdown": markdown}
     found = list(find_designs(paths))
     _refuse_overlap({name: path for name, path in reports.items() if path is not None}, found)
+    if output is not None and baseline is not None and os.path.realpath(output) == os.path.realpath(baseline):
+        raise click.BadParameter(
+            "expected another folder than --baseline, which a failing run would replace", param_hint="-o"
+        )
     for folder in (output, cache):
         if folder is not None:
             make_folder(folder)

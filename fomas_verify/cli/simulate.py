@@ -133,6 +133,8 @@ def _must_go_together(
 ) -> None:
     if ("truncated" in names) != (memory is not None):
         raise click.UsageError("--memory M says how many inputs the controller truncated keeps: give both or neither")
+    if csv_file is not None and parquet is not None and csv_file.resolve() == parquet.resolve():
+        raise click.UsageError("--csv and --parquet need a file each")
     if digits is not None and csv_file is None:
         raise click.UsageError("--digits D says how many digits the CSV file has: give --csv FILE too")
     if parquet is not None and (digits is not None or enclose):

@@ -20,6 +20,7 @@ from fomas_verify.gate.cache import LARGEST, certificate_file
 from fomas_verify.gate.model import FALSE, SHRUNK, UNDECIDED, WRONG_INPUT, Finding
 
 EQUIVALENT: Final = {"control-bounded": "perron-eigenvalues", "average-consensus": "perron-eigenvalues"}
+NUMBERS: Final = ("alpha", "gamma", "mu", "h")
 _DIGITS: Final = 4
 
 
@@ -42,7 +43,8 @@ def shrunk_margins(
     Yields
     ------
     Finding
-        For each margin that lost more, and where the baseline's certificate is none. Nothing where it is missing, or
+        For each margin that lost more, for a design that has intervals now and so no margins, and where the baseline's
+        certificate is none. Nothing where it is missing, or
         holds no margin of the claim: then the design is new, or the claim was not true before.
     """
     path = certificate_file(folder, name)
@@ -63,6 +65,9 @@ def shrunk_margins(
         )
         return
     former, present = json.loads(data), json.loads(certificate)
+    if "margins" in former["values"] and any(isinstance(x, list) for x in map(present["design"].get, NUMBERS)):
+        words = "margins cannot be compared with the baseline's: the design has an interval"
+        yield Finding(SHRUNK, "", FALSE, words)
     for claim in dict.fromkeys(EQUIVALENT.get(name, name) for name in required):
         yield from _compared(claim, margins_of(former, claim), margins_of(present, claim), loss)
 

@@ -83,9 +83,16 @@ def _at_the_largest_mu(design: UncertainDesign, claim: Claim, mu: Interval) -> D
     for largest in [mu.upper] if mu.is_exact or "mu" in design.ranges else _above(mu.upper, alpha_of(design).width):
         decision = claim.decide(Loop(replace(design.least, gamma=None, mu=largest, h=None)))
         if decision.verdict is Verdict.PROVED:
-            return replace(decision, reason=f"for every member, as for the largest mu: {decision.reason}")
+            return replace(decision, reason=_for_every_member(decision.reason))
     found = refuting_member(design, claim, alpha_of(design))
     return found or undecided(BITS, "true for some members, and not decided for those with the largest mu")
+
+
+def _for_every_member(reason: str) -> str:
+    """The reason at a bound of the largest mu, in words that are true of each mu."""
+    if reason.startswith("sigma = beta"):
+        return "for every member: sigma = beta"
+    return f"for every member: {reason.replace('mu = ', 'mu <= ', 1)}"
 
 
 def _above(mu: Fraction, width: Fraction) -> list[Fraction]:
@@ -99,7 +106,7 @@ def _values(
 ) -> dict[str, Interval]:
     """Enclosures that hold for every member."""
     alpha = alpha_of(design)
-    mu = mu.rounded(BITS)
+    mu = mu if "mu" in design.ranges else mu.rounded(BITS)
     values = {"mu": mu}
     if loop.assumption1:
         lambda2 = loop.lambda2(BITS).rounded(BITS)

@@ -1,8 +1,9 @@
-"""Files written whole or not at all: under a temporary name first, then renamed."""
+"""Files written whole or not at all: under a temporary name first, then renamed. No output takes a design's place."""
 
 from __future__ import annotations
 
 import os
+import re
 import secrets
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
@@ -11,6 +12,9 @@ from pathlib import Path
 from fomas_verify.exact.errors import FomasError
 
 _NAME_PART = 40
+_LOOKED_AT = 1 << 20
+_ALPHA = re.compile(rb'(?:^|[{,\n])\s*"?alpha"?\s*[=:]')
+_GRAPH = re.compile(rb'(?:^|[{,\n])\s*(?:"graphs?"\s*:|graphs?\s*[=.]|\[+\s*graphs?\s*[\].])')
 
 
 class OutputError(FomasError):
@@ -31,7 +35,8 @@ def write_whole(path: Path, data: bytes) -> None:
     Raises
     ------
     OutputError
-        It cannot be written; then the former file is unchanged and no temporary file is left.
+        It cannot be written, or a design stands there; then the former file is unchanged and no temporary file is
+        left.
     """
     write_all({path: data})
 
@@ -73,10 +78,21 @@ def _stage(path: Path, data: bytes, staged: list[tuple[Path, Path]]) -> None:
         path.write_bytes(data)
         return
     target = Path(os.path.realpath(path))
+    if _is_a_design(target):
+        raise FileExistsError(None, "expected a file of its own, found a design")
     temporary = target.with_name(f".{target.name[:_NAME_PART]}.{secrets.token_hex(8)}.tmp")
     staged.append((temporary, target))
     with temporary.open("xb") as file:
         file.write(data)
+
+
+def _is_a_design(path: Path) -> bool:
+    """Whether a file that exists looks like a design by its keys; a user has no other copy of it."""
+    if not path.exists():
+        return False
+    with path.open("rb") as file:
+        start = file.read(_LOOKED_AT)
+    return _ALPHA.search(start) is not None and _GRAPH.search(start) is not None
 
 
 @contextmanager

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 
 from fomas_verify.claims.registry import CLAIMS
 from fomas_verify.claims.verdict import Decision, Verdict
 from fomas_verify.design import Design
-from fomas_verify.enclosure.digits import decimal, rounded_down, rounded_up
+from fomas_verify.enclosure.digits import decimal, exact_decimal, rounded_down, rounded_up
 from fomas_verify.enclosure.interval import Interval
 from fomas_verify.enclosure.roots import Root, root_of
 from fomas_verify.exact.rational import format_rational
@@ -66,7 +66,15 @@ def uncertain_text(proof: UncertainProof) -> str:
 
 
 def _range(x: Interval) -> str:
-    return decimal(x, 20) if x.is_exact else f"[{rounded_down(x.lower, 12)}, {rounded_up(x.upper, 12)}]"
+    return decimal(x, 20) if x.is_exact else f"[{_end(x.lower, rounded_down)}, {_end(x.upper, rounded_up)}]"
+
+
+def _end(x: Fraction, rounded: Callable[[Fraction, int], str]) -> str:
+    """An end of a range: exactly where that is short, else rounded outward."""
+    for exact in (exact_decimal(x, 12), format_rational(x)):
+        if exact is not None and len(exact) <= 20:
+            return exact
+    return rounded(x, 12)
 
 
 def _heading(design: Design) -> str:
@@ -231,7 +239,8 @@ def _entry(x: Fraction) -> str:
 
 
 def _ending(decisions: Mapping[str, Decision], require: Sequence[str]) -> str:
-    rests = [f"{claim.ID} ({claim.COQ})" for claim in CLAIMS if claim.COQ and claim.ID in decisions]
+    decided = {name for name, x in decisions.items() if x.verdict in (Verdict.PROVED, Verdict.REFUTED)}
+    rests = [f"{claim.ID} ({claim.COQ})" for claim in CLAIMS if claim.COQ and claim.ID in decided]
     lines = textwrap.wrap(
         f"Coq theorems behind them: {', '.join(rests)}", WIDTH, subsequent_indent="  ", break_on_hyphens=False
     )

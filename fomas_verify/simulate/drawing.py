@@ -52,7 +52,7 @@ def draw(panel: Panel, file_format: str) -> bytes:
         axes = figure.add_subplot()
         for curve in panel.curves:
             _draw_curve(axes, curve)
-        if panel.logarithmic:
+        if panel.logarithmic and any(max(curve.y, default=0) > 0 for curve in panel.curves):
             axes.set_xscale("log")
             axes.set_yscale("log")
         axes.set(title=panel.title, xlabel=panel.x_label, ylabel=panel.y_label)

@@ -13,6 +13,7 @@ from dataclasses import replace
 import numpy as np
 
 from fomas_verify.simulate.convolution import BLOCK, Finish, Progress, approx_product, march
+from fomas_verify.simulate.errors import SimulationError
 from fomas_verify.simulate.laws import Control, Law
 from fomas_verify.simulate.memory import Array, approx_step_response
 from fomas_verify.simulate.plant import DENSE_AGENTS, Plant
@@ -56,6 +57,7 @@ def simulate(
         if law.memory is None and tuned == plant.alpha:
             errors = _powers(plant, count, progress)
             marched = errors.shape[-1]
+            _some(marched)
             states = np.empty_like(errors)
             states[..., 0] = plant.x0
             states[..., 1:] = plant.x0[:, :, None] - plant.mu * np.cumsum(errors[..., :-1], axis=-1)
@@ -63,10 +65,16 @@ def simulate(
             kernel = approx_product(approx_step_response(plant.alpha, count), response)
             states = np.repeat(plant.x0[:, :, None], count, axis=-1)
             marched = solve(plant, kernel, states, progress)
+            _some(marched)
             states = states[..., :marched]
             errors = plant.error(states)
     inputs = -plant.gamma * approx_product(response, errors)
     return Trajectory(law.name, plant.h, states, inputs, stopped=marched < count)
+
+
+def _some(marched: int) -> None:
+    if marched < 2:
+        raise SimulationError("simulate: the loop's numbers pass 1e100 before its second sample: nothing to show")
 
 
 def simulate_own(

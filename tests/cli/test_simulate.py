@@ -302,3 +302,27 @@ def test_progress_is_shown_on_a_terminal_and_of_long_runs_only(
         progress(100)
     assert ("memoryless" in stream.getvalue() and "100%" in stream.getvalue()) == (terminal and long)
     assert (stream.getvalue() == "") == (not (terminal and long))
+
+
+@pytest.mark.parametrize(("key", "value"), [("h", "1e200"), ("x0", "[1e101, 1, 1, 1, 1]")])
+def test_numbers_beyond_floats_end_in_one_line(call: Verify, tmp_path: Path, key: str, value: str) -> None:
+    lines = Path(PAPER).read_text().splitlines()
+    changed = [f"{key} = {value}" if line.split("=")[0].strip() == key else line for line in lines]
+    path = tmp_path / "far.toml"
+    path.write_text("\n".join(changed))
+    run = call("simulate", path, "--samples", 5)
+    assert (run.returncode, run.stderr.count("\n")) == (2, 1)
+    assert "pass 1e100 before its second sample" in run.stderr
+
+
+def test_agents_that_agree_are_drawn(call: Verify, tmp_path: Path) -> None:
+    path = tmp_path / "agreed.toml"
+    path.write_text(Path(PAPER).read_text().replace("[4.5, 5, 6, 1.5, -1]", "[1, 1, 1, 1, 1]"))
+    run = call("simulate", path, "--samples", 5, "--plot", tmp_path / "figures", "--format", "svg")
+    assert run.returncode == 0, run.stderr
+    assert (tmp_path / "figures" / "between-samples.svg").exists()
+
+
+def test_two_outputs_need_a_file_each(call: Verify, tmp_path: Path) -> None:
+    run = call("simulate", PAPER, "--samples", 5, "--csv", tmp_path / "a", "--parquet", tmp_path / "a")
+    assert (run.returncode, list(tmp_path.iterdir())) == (2, [])

@@ -127,3 +127,18 @@ def test_a_baseline_that_is_no_folder(tmp_path: Path, capsys: pytest.CaptureFixt
     (tmp_path / "b").mkdir()
     (tmp_path / "b" / "the plant%2F1.json").mkdir()
     assert gate(tmp_path, design(), tmp_path / "b") == 2
+
+
+def test_a_failing_run_does_not_become_the_baseline(baseline: Path, tmp_path: Path) -> None:
+    former = {path: path.read_bytes() for path in baseline.iterdir()}
+    assert gate(tmp_path, design("0.3"), baseline, "-o", str(baseline)) == 2
+    assert gate(tmp_path, design("0.3"), baseline, "-o", f"{baseline}/../{baseline.name}") == 2
+    assert {path: path.read_bytes() for path in baseline.iterdir()} == former
+
+
+def test_an_interval_does_not_slip_past_the_baseline(
+    baseline: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = design("0.2").replace("alpha = 0.9", "alpha = [0.895, 0.905]")
+    assert gate(tmp_path, text, baseline) == 1
+    assert "margins cannot be compared with the baseline's: the design has an interval" in capsys.readouterr().out

@@ -1,6 +1,7 @@
 """Uncertain designs: what is said of every member, against members taken one by one with numpy and mpmath."""
 
 import json
+import re
 from fractions import Fraction
 from itertools import product
 
@@ -12,6 +13,7 @@ from fomas_verify.claims.verdict import Verdict
 from fomas_verify.design import UncertainDesign
 from fomas_verify.design.reading import any_from_mapping
 from fomas_verify.prover import UncertainProof, prove_uncertain
+from fomas_verify.report.text import uncertain_text
 
 PAPER = [[0, 0, 0, 1, 1], [1, 0, 1, 0, 0], [1, 1, 0, 0, 0], [0, 1, 1, 0, 0], [0, 0, 0, 1, 0]]
 RING = {"family": "directed-cycle", "agents": 5}
@@ -144,3 +146,19 @@ def test_the_least_member_alone_may_fail() -> None:
     for shift, verdict in ((1e-6, "proved"), (-1e-6, "refuted")):
         found = prove(alpha=["0.9", "0.91"], mu=[mpmath.nstr(edge + shift, 15), "0.4"])
         assert verdicts(found)["memory-inequality"] == verdict
+
+
+def test_what_is_printed_of_the_largest_mu_is_true() -> None:
+    """mu at the upper ends is 0.1815026870448... (mpmath); the number shown bounds it, and says so."""
+    proof = prove(alpha=["0.88", "0.92"], gamma="0.2", h="0.85")
+    shown = proof.decisions["gain-bound"].reason
+    found = re.match(r"for every member: mu <= (\d\.\d+) < 1/Delta_max", shown)
+    assert found is not None
+    assert max(0.2 * 0.85**a / float(mpmath.gamma(a + 1)) for a in (0.88, 0.9, 0.92)) <= float(found[1]) < 0.19
+    assert "mu = " not in proof.decisions["average-consensus"].reason
+
+
+def test_a_given_interval_of_mu_is_kept_exactly() -> None:
+    proof = prove(alpha="0.9", mu=["0.1", "2/3"])
+    assert proof.values["mu"].ends == (Fraction(1, 10), Fraction(2, 3))
+    assert "mu = gamma h^alpha / Gamma(alpha+1)  [0.1, 2/3]" in uncertain_text(proof)

@@ -98,3 +98,34 @@ def test_a_folder_under_a_file_is_refused(tmp_path: Path) -> None:
     (tmp_path / "file").write_bytes(b"")
     with pytest.raises(OutputError, match="file/sub: cannot write: Not a directory"):
         make_folder(tmp_path / "file" / "sub")
+
+
+DESIGNS = [
+    'alpha = 0.9\nmu = 0.1\n[graph]\nfamily = "path"\nagents = 3\n',
+    "format = 'fomas-design/1'\nmu = 1\nalpha= ['1/2', 0.7]\ngraph.family = 'path'\ngraph.agents = 3\n",
+    '{"alpha":0.9,"mu":"1/10","graph":{"family":"path","agents":3}}',
+    '{\n  "graph": {"family": "path", "agents": 3},\n  "alpha": "9/10"\n}\n',
+]
+
+
+@pytest.mark.parametrize("text", DESIGNS)
+@pytest.mark.parametrize("linked", [False, True])
+def test_no_output_takes_the_place_of_a_design(tmp_path: Path, text: str, linked: bool) -> None:
+    design, other = tmp_path / "plant.design.toml", tmp_path / "other.json"
+    design.write_text(text)
+    target = tmp_path / "link.json" if linked else design
+    if linked:
+        target.symlink_to(design)
+    with pytest.raises(OutputError, match=r"expected a file of its own, found a design$") as caught:
+        write_all({other: b"{}", target: b"{}"})
+    assert caught.value.exit_status == 2
+    assert design.read_text() == text
+    assert not other.exists()
+
+
+def test_a_certificate_gives_way_to_the_next(tmp_path: Path, checkout: Path) -> None:
+    """It names alpha, and graph-assumption, but it is no design."""
+    path = tmp_path / "certificate.json"
+    path.write_bytes((checkout / "reports" / "paper" / "certificate.json").read_bytes())
+    write_whole(path, b"{}")
+    assert path.read_bytes() == b"{}"
