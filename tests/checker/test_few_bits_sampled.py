@@ -1,0 +1,213 @@
+"""At a few bits P^k, Phi_k and trajectories stay inside their errors, and what is said of norms is true.
+
+The truth is mpmath's at 60 digits.
+"""
+
+import random
+from collections.abc import Iterator
+from fractions import Fraction
+from typing import Any
+
+import mpmath
+import pytest
+
+from fomas_verify.checker import decay, operators, samples, trajectory
+from fomas_verify.checker.ball import Ball, deviation
+from fomas_verify.checker.powers import Enclosure
+from fomas_verify.checker.ruling import Undecided
+from tests.checker.builder import PAPER_EDGES, Json, complete, cycle, design, directed_cycle, path
+from tests.checker.sampled import norm, peak_by_floats, power_norm, real, resolvent, sample_norm, step_matrix
+from tests.checker.test_few_bits import drawn, near, sign
+from tests.checker.test_samples import facts
+
+DESIGNS: list[Json] = [
+    design(PAPER_EDGES, 5, gamma="3/20", h="17/20"),
+    design(PAPER_EDGES, 5, "1/10", mu="2/5"),
+    design(directed_cycle(4, "5/3"), 4, gamma="1/4", h="2"),
+    design(path(3), 3, "1/3", mu="1/2"),
+    design(complete(4), 4, "1/2", mu="1/4"),
+    design(complete(3), 3, "1/2", gamma="2/7", h="6/5"),
+    design(directed_cycle(3), 3, "4/5", gamma="3/5", h="1"),
+    design(cycle(5) + [[i, (i + 1) % 5 + 1, "1/7"] for i in range(1, 6)], 5, "3/4", mu="1/10"),
+]
+
+
+@pytest.fixture(params=[0, 5])
+def guard(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> Iterator[int]:
+    """So many guard bits instead of 64."""
+    for module in (samples, operators, trajectory):
+        monkeypatch.setattr(module, "GUARD", request.param)
+    caches = (samples._step, operators.operators, trajectory.trajectory)
+    for cached in caches:
+        cached.cache_clear()
+    yield request.param
+    for cached in caches:
+        cached.cache_clear()
+
+
+def matrices(about: Json, start: Any, count: int) -> Iterator[tuple[Any, Any]]:
+    """P^k E and Phi_k E for k = 0, 1, ..., from their definitions."""
+    step, r = step_matrix(about), resolvent(about["alpha"], count)
+    powers = [start]
+    for _ in range(count):
+        powers.append(step * powers[-1])
+    for k in range(count + 1):
+        yield powers[k], sum((r[k - j] * powers[j] for j in range(1, k + 1)), r[k] * powers[0])
+
+
+def is_inside(ball: Ball, matrix: Any) -> bool:
+    off = mpmath.mpf(0)
+    for j, column in enumerate(ball.columns):
+        for i, entry in enumerate(column):
+            off += (matrix[i, j] / mpmath.mpf(2) ** ball.exponent - entry) ** 2
+    return bool(mpmath.sqrt(off) <= ball.error * (1 + mpmath.mpf(10) ** -40))
+
+
+@pytest.mark.parametrize("about", DESIGNS)
+@pytest.mark.parametrize("bits", [2, 5, 11])
+def test_samples_stay_inside_their_error(about: Json, bits: int, guard: int) -> None:
+    n = about["agents"]
+    start = operators._centring(n, bits)
+    found = samples.Samples(facts(about), bits, start)
+    with mpmath.workdps(60):
+        for k, (power, sample) in enumerate(matrices(about, mpmath.eye(n) - mpmath.ones(n) / n, 14)):
+            assert is_inside(found.power(k), power), k
+            assert is_inside(found.sample(k), sample), k
+            assert found.power(k).exponent == found.sample(k).exponent == -bits - guard
+        assert found.power(3) == found.power(3)
+
+
+@pytest.mark.parametrize("about", DESIGNS)
+@pytest.mark.parametrize("bits", [3, 6, 12])
+def test_what_is_said_of_norms_at_the_samples_is_true(about: Json, bits: int, guard: int) -> None:
+    found = operators.Operators(facts(about), bits)
+    with mpmath.workdps(60):
+        a, r = real(about["alpha"]), resolvent(about["alpha"], 40)
+        c = [(n + 1) ** a - mpmath.mpf(n) ** a for n in range(40)]
+        sigma = power_norm(about, 1)
+        for k in (9, 1, 2, 5):
+            power, sample = power_norm(about, k), sample_norm(about, k)
+            assert found.power_upper(k) >= power * found.one
+            assert found.sample_sign_of_one(k) in (None, sign(1 - sample))
+            assert found.power_sign_of_memory(k) in (None, sign(c[k] - power))
+            for ask, size in ((found.sample_sign, sample), (found.power_sign, power)):
+                floor = int(mpmath.floor(size * found.one))
+                for lower in range(floor - 40, floor + 40, 1 if bits < 12 else 3):
+                    for upper in (lower, lower + 1, lower + 9):
+                        said = ask(k, lower, upper)
+                        assert said != 1 or size * found.one < lower
+                        assert said != -1 or size * found.one > upper
+            for u in (floor - 3, floor, floor + 1, floor + 40):
+                scaled = mpmath.mpf(max(u, 1)) / found.one
+                assert not found._stays_below(max(u, 1), k) or sigma * scaled + r[k + 1] <= scaled
+            for m in (1, 2, 4, 8):
+                if found.kernel.step_response(k + 1)[0] <= 0:
+                    continue
+                off = c[k + 1 + m] / c[k + 1] - power_norm(about, m)
+                assert found.decays(k, m) in (None, sign(off))
+                assert not found._falls(k, m) or off > 0
+
+
+@pytest.mark.parametrize("about", DESIGNS)
+@pytest.mark.parametrize("bits", [4, 8, 20])
+def test_what_is_said_of_the_peak_is_true(about: Json, bits: int, guard: int) -> None:
+    peak, _ = peak_by_floats(about, 400)
+    found = operators.Operators(facts(about), bits)
+    for part in (-400, -30, -5, -1, 1, 3, 20, 100, 999):
+        u = Fraction(peak) * (1 + Fraction(part, 1000))
+        for box in (Enclosure(u, u), Enclosure(u, u + Fraction(1, 100)), Enclosure(u - Fraction(1, 50), u)):
+            try:
+                said = found.peak_sign(box)
+            except Undecided:
+                continue
+            assert said not in (0, 1) or box.lower > Fraction(peak) * (1 - Fraction(1, 10**12))
+            assert said not in (0, -1) or box.upper < Fraction(peak) * (1 + Fraction(1, 10**12))
+
+
+@pytest.mark.parametrize("about", DESIGNS)
+@pytest.mark.parametrize("bits", [2, 4, 9])
+def test_what_is_said_of_trajectories_is_true(about: Json, bits: int, guard: int) -> None:
+    choose = random.Random(bits)
+    found_facts = facts(about)
+    n = about["agents"]
+    for width in (1, 1, 2, 3):
+        x0 = tuple(tuple(Fraction(choose.randint(-9, 9), choose.randint(1, 4)) for _ in range(width)) for _ in range(n))
+        if len(set(x0)) == 1:
+            continue
+        found = trajectory.Trajectory(found_facts, x0, bits)
+        columns, q = trajectory.error_columns(found_facts.graph, x0)
+        with mpmath.workdps(60):
+            e = mpmath.matrix([[real(str(Fraction(column[i], q))) for column in columns] for i in range(n)])
+            size = mpmath.mnorm(e, "f")
+            a = real(about["alpha"])
+            assert found.sample_sign(0) is None
+            for k, (power, sample) in enumerate(matrices(about, e, 12)):
+                if k:
+                    c = (k + 1) ** a - mpmath.mpf(k) ** a
+                    assert found.sample_sign(k) in (None, sign(size - mpmath.mnorm(sample, "f")))
+                    assert found.power_sign(k) in (None, sign(c * size - mpmath.mnorm(power, "f")))
+
+
+@pytest.mark.parametrize("about", DESIGNS)
+def test_what_is_said_of_powers_is_true(about: Json, monkeypatch: pytest.MonkeyPatch) -> None:
+    """norm P^n against numbers near it, from 6 bits on."""
+    monkeypatch.setattr(decay, "BITS", (6, 9, 14))
+    choose = random.Random(1)
+    found = facts(about)
+    with mpmath.workdps(60):
+        for n in (1, 2, 3, 7):
+            size = power_norm(about, n)
+            for s in near(size, choose):
+                off = real(str(s)) - size
+                if s > 0 and abs(off) > mpmath.mpf(10) ** -28:
+                    assert decay.norm_sign.__wrapped__(found, n, s) in (None, sign(off))
+
+
+@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("base", [2, 3, 32])
+def test_what_is_said_of_rates_is_true(seed: int, base: int) -> None:
+    """kappa near the largest norm P^k / rho^k, and rho near the largest with which some kappa will do."""
+    choose = random.Random(seed)
+    about = drawn(seed)
+    found = facts(about)
+    rho = Fraction(choose.randint(2, 19), 20)
+    with mpmath.workdps(30):
+        step = step_matrix(about) / real(str(rho))
+        power, sizes = step, []
+        for _ in range(60):
+            sizes.append(norm(power))
+            power = step * power
+        largest = max([mpmath.mpf(1), *sizes])
+        for kappa in (*near(largest, choose), Fraction(3), Fraction(1000)):
+            if kappa <= 1:
+                continue
+            for bits in (6, 12, 40):
+                said = decay._by_levels(found, bits, base, kappa, rho, decay.Budget(about["agents"]))
+                assert said != 1 or largest <= real(str(kappa)) * (1 + mpmath.mpf(10) ** -25)
+                assert said != -1 or sizes[-1] > 1 or largest > real(str(kappa)) * (1 - mpmath.mpf(10) ** -25)
+            grows = decay._exceeded(found, kappa, rho, decay.Budget(about["agents"]))
+            assert not grows or largest > real(str(kappa)) * (1 - mpmath.mpf(10) ** -25) or sizes[-1] > sizes[-2]
+
+
+def test_the_ends_of_a_norm_and_the_largest_of_a_level() -> None:
+    """3000, 4000 and 5000 times the identity of two, give or take 100, in halves."""
+    balls = [Ball([[k, 0], [0, k]], -1, 100) for k in (3000, 5000, 4000)]
+    for k, ball in zip((3000, 5000, 4000), balls, strict=True):
+        lower, upper = decay._ends(ball)
+        assert lower == Fraction(k - 100, 2)
+        assert Fraction(k + 100, 2) <= upper <= k + 100
+    digits = decay._Digits()
+    assert digits.largest() == 1
+    for ball in balls:
+        digits.add(*decay._ends(ball), ball)
+    assert 2550 <= digits.largest() <= 2551
+    assert [rival for _, rival in digits.rivals] == balls[1:]
+    small = decay._Digits()
+    small.add(Fraction(1, 3), Fraction(1, 2), Ball([[1]], -2, 0))
+    assert (small.largest(), small.rivals) == (1, [])
+
+
+def test_the_deviation_divided_by_a_rate() -> None:
+    """K_3 at mu = 1/6: P - J = (I - J) / 2; divided by 1/4 its norm is 2."""
+    lower, upper = decay._ends(deviation(facts(design(complete(3), 3, mu="1/6")), 40, Fraction(4)))
+    assert 2 - Fraction(1, 2**30) <= lower <= 2 <= upper
