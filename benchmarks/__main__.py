@@ -40,6 +40,7 @@ def rows(folder: Path) -> Iterator[str]:
     yield from paper_rows(folder)
     yield from sixty_agents(folder)
     yield from sampled_rows(folder)
+    yield from region_rows(folder)
     yield from horizon_rows()
     yield from (line(*row) for row in simulate.rows())
     yield from (line(*row) for row in gate_rows(GATE_COUNT, 2))
@@ -81,6 +82,22 @@ def sampled_rows(folder: Path) -> Iterator[str]:
         prove = run([*TOOL, "prove", str(file), "-o", certificate], accepted=(0, 1))
         check = run(["-I", "-S", "fomas_verify/checker", certificate])
         yield line(f"check / prove, {name}, CPU", ratio(check.cpu, prove.cpu), f"{goal}, ratio below 1")
+
+
+def region_rows(folder: Path) -> Iterator[str]:
+    """The region by the direct search, and its certificate checked."""
+    for name, design, goal in (
+        ("paper", None, "below 1 s"),
+        ("N = 30", weighted_digraph(30, 3, 1), "below 5 s"),
+        ("N = 60", weighted_digraph(60, 3, 1), "below 15 s"),
+    ):
+        file, certificate = folder / "region.json", str(folder / "region.certificate.json")
+        file.write_text(json.dumps(design))
+        about = PAPER if design is None else str(file)
+        found = typical([*TOOL, "region", about, "-o", certificate], times=3)
+        yield line(f"region {name}, wall", f"{found.wall:.2f} s", goal)
+        check = typical(["-I", "-S", "fomas_verify/checker", certificate], times=3)
+        yield line(f"check region {name}, wall", f"{check.wall:.2f} s", "")
 
 
 def horizon_rows() -> Iterator[str]:

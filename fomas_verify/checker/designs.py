@@ -1,6 +1,6 @@
 """The design a certificate is about, as data: its schema, read with the path of every defect.
 
-Source: docs/certificate-format.md, sections 2 and 7.
+Source: docs/certificate-format.md, sections 2, 7 and 8.
 """
 
 from collections.abc import Callable
@@ -51,8 +51,8 @@ class Design(Setting):
     Attributes
     ----------
     alpha : order of the Caputo derivative, in (0, 1)
-    gamma, mu : the gain, or the integrated gain; exactly one of them is given
-    h : sampling period, required with gamma
+    gamma, mu : the gain, or the integrated gain; exactly one of them is given (of a region: at most one)
+    h : sampling period, required with gamma (not of a region)
     """
 
     alpha: Fraction
@@ -88,7 +88,7 @@ class UncertainDesign(Setting):
 
 def read_design(value: object, path: str) -> Design | UncertainDesign:
     """The design of a certificate, its form checked; raises `Malformed`."""
-    given = fields(value, path, ("alpha", "agents", "edges", "require"), ("gamma", "mu", "h", "x0"))
+    given = _given(value, path)
     alpha = _number(given["alpha"], f"{path}.alpha", read_order)
     if ("gamma" in given) == ("mu" in given):
         raise Malformed(path, 'expected exactly one of "gamma" and "mu"')
@@ -97,15 +97,34 @@ def read_design(value: object, path: str) -> Design | UncertainDesign:
     gamma, mu, h = (
         _number(given[key], f"{path}.{key}", read_positive) if key in given else None for key in NUMBERS[1:]
     )
-    agents = count(given["agents"], f"{path}.agents", 2)
-    edges = _edges(given["edges"], f"{path}.edges", agents)
-    x0 = _state(given["x0"], f"{path}.x0", agents) if "x0" in given else None
-    plain = "x0" in given and not isinstance(array(given["x0"], f"{path}.x0", "an array")[0], list)
-    setting = (agents, edges, x0, plain, _require(given["require"], f"{path}.require"))
+    setting = _setting(given, path)
     if any(isinstance(number, tuple) for number in (alpha, gamma, mu, h)):
         return UncertainDesign(*setting, alpha, gamma, mu, h)
     others = (cast(Fraction | None, number) for number in (gamma, mu, h))
     return Design(*setting, cast(Fraction, alpha), *others)
+
+
+def read_family(value: object, path: str) -> Design:
+    """The design of a region: gamma, mu and h may be absent, and are no intervals; raises `Malformed`."""
+    given = _given(value, path)
+    alpha = read_order(given["alpha"], f"{path}.alpha")
+    if "gamma" in given and "mu" in given:
+        raise Malformed(path, 'expected at most one of "gamma" and "mu"')
+    others = (read_positive(given[key], f"{path}.{key}") if key in given else None for key in NUMBERS[1:])
+    return Design(*_setting(given, path), alpha, *others)
+
+
+def _given(value: object, path: str) -> dict[str, object]:
+    return fields(value, path, ("alpha", "agents", "edges", "require"), ("gamma", "mu", "h", "x0"))
+
+
+def _setting(given: dict[str, object], path: str) -> tuple[int, tuple[Edge, ...], State | None, bool, tuple[str, ...]]:
+    """The attributes of a `Setting`, in their order."""
+    agents = count(given["agents"], f"{path}.agents", 2)
+    edges = _edges(given["edges"], f"{path}.edges", agents)
+    x0 = _state(given["x0"], f"{path}.x0", agents) if "x0" in given else None
+    plain = "x0" in given and not isinstance(array(given["x0"], f"{path}.x0", "an array")[0], list)
+    return agents, edges, x0, plain, _require(given["require"], f"{path}.require")
 
 
 def _number(value: object, path: str, read: Callable[[object, str], Fraction]) -> Number:

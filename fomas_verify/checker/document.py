@@ -1,12 +1,13 @@
 """The certificate as data: its schema, read from parsed JSON with the path of every defect.
 
-Source: docs/certificate-format.md, sections 1 to 4 and 7.
+Source: docs/certificate-format.md, sections 1 to 4, 7 and 8.
 """
 
 from dataclasses import dataclass
 
-from fomas_verify.checker.designs import Design, UncertainDesign, read_claim_id, read_design
+from fomas_verify.checker.designs import Design, UncertainDesign, read_claim_id, read_design, read_family
 from fomas_verify.checker.member_form import MemberWitness, read_member_witness
+from fomas_verify.checker.region_form import Condition, read_conditions
 from fomas_verify.checker.statements import VERDICTS
 from fomas_verify.checker.text import Malformed, array, expected, fields, parse, string
 from fomas_verify.checker.value_form import Value, read_values
@@ -31,7 +32,7 @@ class Document:
 
     design: Design | UncertainDesign
     values: tuple[Value, ...]
-    claims: tuple[Claim, ...]
+    claims: tuple[Claim | Condition, ...]
 
 
 def read_document(data: bytes) -> Document:
@@ -47,11 +48,17 @@ def read_document(data: bytes) -> Document:
         # Of another format other keys are expected.
         _literal(whole["format"], "$.format", FORMAT)
     top = fields(whole, "$", ("format", "kind", "design", "values", "claims", "tool"))
-    _literal(top["kind"], "$.kind", "design")
+    kind = top["kind"]
+    if kind not in ("design", "region"):
+        raise expected("$.kind", '"design" or "region"', kind)
     tool = fields(top["tool"], "$.tool", ("name", "version"))
     _literal(tool["name"], "$.tool.name", "fomas_verify")
     if len(string(tool["version"], "$.tool.version")) > 64:
         raise expected("$.tool.version", "at most 64 characters", tool["version"])
+    if kind == "region":
+        family = read_family(top["design"], "$.design")
+        fields(top["values"], "$.values", ())
+        return Document(family, (), read_conditions(top["claims"], "$.claims", family.agents))
     design = read_design(top["design"], "$.design")
     values = read_values(top["values"], "$.values", design.agents)
     return Document(design, values, _claims(top["claims"], "$.claims", design))

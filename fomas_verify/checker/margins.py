@@ -54,7 +54,8 @@ def _require_memory(facts: Facts, margin: GainMargin) -> None:
     need(second_sign(graph, alpha, d), (0, 1), "beta <= -sqrt(3^alpha - 2^alpha) at mu = outer[1]")
 
 
-def _require_stable(facts: Facts, margin: GainMargin) -> None:
+def require_stable(facts: Facts, margin: GainMargin) -> None:
+    """Return if the witnesses at the upper ends of a margin in mu show it for `perron-eigenvalues`."""
     need_that(margin.outer[0] == 0, "outer[0] = 0")
     proof = cast(Lyapunov, margin.proof)
     require_decrease(facts.graph, proof.mu, proof.rows)
@@ -81,7 +82,7 @@ def _require_contraction(facts: Facts, margin: GainMargin) -> None:
 _GAIN_TESTS: dict[str, Callable[[Facts, GainMargin], None]] = {
     "gain-bound": _require_gain_bound,
     "memory-inequality": _require_memory,
-    "perron-eigenvalues": _require_stable,
+    "perron-eigenvalues": require_stable,
     "repaired-condition": _require_contraction,
 }
 

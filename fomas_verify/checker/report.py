@@ -1,12 +1,12 @@
 """The checker's answer to a certificate: an outcome for each value and claim, and an exit status.
 
-Source: docs/certificate-format.md, section 6.
+Source: docs/certificate-format.md, sections 6 and 8.
 """
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import partial
-from typing import Literal, TypeVar
+from typing import Literal, TypeVar, cast
 
 from fomas_verify.checker.claims import require_claim
 from fomas_verify.checker.designs import Design, UncertainDesign
@@ -15,31 +15,35 @@ from fomas_verify.checker.facts import Facts
 from fomas_verify.checker.graph import Graph
 from fomas_verify.checker.member_values import require_value_of_all
 from fomas_verify.checker.members import Members, require_claim_of_all
+from fomas_verify.checker.region_form import Condition
+from fomas_verify.checker.regions import require_condition
 from fomas_verify.checker.ruling import Refused, Undecided
 from fomas_verify.checker.value_form import Value
 from fomas_verify.checker.values import require_value
 
 MAX_AGENTS = 2000
 
+Kind = Literal["value", "claim", "condition"]
 Status = Literal["accepted", "refused", "undecided"]
-Said = TypeVar("Said", Value, Claim)
+Said = TypeVar("Said", Value, Claim | Condition)
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """What the checker says of one value or claim.
+    """What the checker says of one value, claim or condition.
 
     Attributes
     ----------
-    kind : which of the two it is
-    id : the value's key (a margin's keys, with points between) or the claim's id
-    verdict : the certificate's verdict on a claim, None for a value
+    kind : which of the three it is; a condition of a region is no claim about the design, though `gain-bound` is an id
+        of both
+    id : the value's key (a margin's keys, with points between) or the id of the claim, or condition
+    verdict : the certificate's verdict on a claim or condition, None for a value
     status : `accepted` if it is true and seen to be, `refused` if it is false or not shown by its witness, `undecided`
         if that took more than the work allowed
     reason : in words
     """
 
-    kind: Literal["value", "claim"]
+    kind: Kind
     id: str
     verdict: str | None
     status: Status
@@ -80,7 +84,7 @@ class Report:
         return {
             outcome.id: outcome.verdict
             for outcome in self.outcomes
-            if outcome.verdict is not None and outcome.status == "accepted"
+            if outcome.verdict is not None and outcome.kind == "claim" and outcome.status == "accepted"
         }
 
     def shortfalls(self, required: Iterable[str]) -> tuple[Shortfall, ...]:
@@ -134,15 +138,20 @@ def _outcomes(document: Document) -> Iterable[Outcome]:
         yield Outcome("value", value.name, None, status, reason)
     for claim in document.claims:
         status, reason = _ruled(design.agents, claim_test, claim)
-        yield Outcome("claim", claim.id, claim.verdict, status, reason)
+        kind: Kind = "condition" if isinstance(claim, Condition) else "claim"
+        yield Outcome(kind, claim.id, claim.verdict, status, reason)
 
 
-def _tests(design: Design | UncertainDesign) -> tuple[Callable[[Value], str], Callable[[Claim], str]]:
+def _tests(design: Design | UncertainDesign) -> tuple[Callable[[Value], str], Callable[[Claim | Condition], str]]:
     if isinstance(design, UncertainDesign):
         members = Members(design, Graph(design))
-        return partial(require_value_of_all, members), partial(require_claim_of_all, members)
+        return partial(require_value_of_all, members), lambda claim: require_claim_of_all(members, cast(Claim, claim))
     facts = Facts(design, Graph(design))
-    return partial(require_value, facts), partial(require_claim, facts)
+
+    def test(claim: Claim | Condition) -> str:
+        return require_condition(facts, claim) if isinstance(claim, Condition) else require_claim(facts, claim)
+
+    return partial(require_value, facts), test
 
 
 def _ruled(agents: int, test: Callable[[Said], str], said: Said) -> tuple[Status, str]:

@@ -1,6 +1,6 @@
 """The claims a certificate can make, and what each says, to the letter.
 
-Source: docs/certificate-format.md, section 4.
+Source: docs/certificate-format.md, sections 4 and 8.
 """
 
 STATEMENTS: dict[str, str] = {
@@ -35,4 +35,19 @@ VALUES = (
     "limit",
     "margins",
 )
+CONDITIONS: dict[str, str] = {
+    "as-stated": (
+        "some mu > 0 satisfies mu < 1/Delta_max and -sqrt(3^alpha - 2^alpha) <= beta <= 2^alpha - 1, "
+        "under Assumption 1 ((15) and (14))"
+    ),
+    "repaired-closed-form": (
+        "some mu > 0 satisfies mu < 1/Delta_max and 1 - 2 mu lambda2 (1 - mu Delta_max) <= (2^alpha - 1)^2, "
+        "under Assumption 1"
+    ),
+    "repaired": "some mu > 0 satisfies mu < 1/Delta_max and sigma <= 2^alpha - 1, under Assumption 1",
+    "gain-bound": "some mu > 0 satisfies mu < 1/Delta_max",
+    "consensus": "for some mu > 0 every x_i(t) tends to the mean of x_0, for every x_0, under Assumption 1",
+}
+"""What the certificate of a region can say: each that a condition on mu can be met."""
+
 MARGINS = ("gain-bound", "memory-inequality", "perron-eigenvalues", "repaired-condition", "control-norm-bound")

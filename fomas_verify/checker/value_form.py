@@ -121,7 +121,7 @@ def _margins(value: object, path: str, agents: int) -> list[Value]:
         if claim == "control-norm-bound":
             found += [_norm_margin(key, given[key], here, agents) for key in given]
             continue
-        gain = _gain_margin(claim, given["mu"], f"{here}.mu", agents) if "mu" in given else None
+        gain = read_gain_margin(claim, given["mu"], f"{here}.mu", agents) if "mu" in given else None
         found += [] if gain is None else [gain]
         if "alpha" in given:
             by = gain if claim == "perron-eigenvalues" else None
@@ -131,7 +131,8 @@ def _margins(value: object, path: str, agents: int) -> list[Value]:
     return found
 
 
-def _gain_margin(claim: str, value: object, path: str, agents: int) -> GainMargin:
+def read_gain_margin(claim: str, value: object, path: str, agents: int) -> GainMargin:
+    """The margin in mu of a claim, its form checked; raises `Malformed`."""
     shown: tuple[str, ...] = ()
     refuted = "Y" if isinstance(value, dict) and "Y" in value else "power"
     if claim == "perron-eigenvalues":
@@ -155,7 +156,7 @@ def _order_margin(claim: str, value: object, path: str, gain: GainMargin | None)
         raise Malformed(path, 'expected "mu" beside it, by which it is decided')
     given = fields(value, path, ("inner", "outer"))
     ends = array(given["inner"], f"{path}.inner", "an array of two rationals", 2)
-    first, last = (_closed_order(x, f"{path}.inner[{i}]") for i, x in enumerate(ends))
+    first, last = (read_closed_order(x, f"{path}.inner[{i}]") for i, x in enumerate(ends))
     ends = array(given["outer"], f"{path}.outer", "an array of two rationals or null", 2)
     before, after = (None if x is None else read_order(x, f"{path}.outer[{i}]") for i, x in enumerate(ends))
     return OrderMargin(f"margins.{claim}.alpha", claim, (first, last), (before, after), gain)
@@ -181,7 +182,7 @@ def _pair(value: object, path: str) -> Interval:
     return rational(first, f"{path}[0]"), rational(last, f"{path}[1]")
 
 
-def _closed_order(value: object, path: str) -> Fraction:
+def read_closed_order(value: object, path: str) -> Fraction:
     """A rational in [0, 1] of which numerator and denominator are at most as long as an order's."""
     alpha = rational(value, path)
     if not 0 <= alpha <= 1 or alpha.denominator >= MAX_ALPHA:

@@ -14,6 +14,7 @@ COMMANDS = {
     "prove": "decide every claim about a design; write its certificate",
     "check": "check a certificate with the independent checker",
     "kernel": "f(j), c_n, partial sums and resolvent, every printed digit right",
+    "region": "the certified feasible region of (gamma, h)",
     "simulate": "the closed loop under the paper's controller and others: table, figures",
     "report": "LaTeX report of a design, and its PDF where a LaTeX is at hand",
     "gate": "many designs, one exit status: the gate of a CI job",

@@ -67,8 +67,8 @@ def memory_inequality(loop: Loop) -> MuMargin:
     """``(2 - 2^alpha)/lambda2 <= mu <= (1 + sqrt(c_2))/lambda2``; under Assumption 1. Rigorous."""
     lambda2 = loop.lambda2(BITS)
     lower, upper = (1 - loop.threshold(BITS)) / lambda2, (1 - loop.lower_threshold(BITS)) / lambda2
-    inner = _above(lower.upper, FINE), _below(upper.lower, FINE)
-    return MuMargin(lower, upper, inner, (_below(lower.lower, FINE), _above(upper.upper, FINE)))
+    inner = above(lower.upper, FINE), below(upper.lower, FINE)
+    return MuMargin(lower, upper, inner, (below(lower.lower, FINE), above(upper.upper, FINE)))
 
 
 @cache
@@ -88,20 +88,22 @@ def repaired_condition(loop: Loop) -> MuMargin | None:
         return sigma_at(loop.laplacian, mu, BITS).upper <= threshold.lower
 
     for shift in (FINE, 56, 40, 24, 12):
-        a, b = _above(region.lower, shift), _below(region.upper, shift)
+        a, b = above(region.lower, shift), below(region.upper, shift)
         if a < b and holds(a) and holds(b):
-            outer = _below(region.lower, FINE), _above(region.upper, FINE)
+            outer = below(region.lower, FINE), above(region.upper, FINE)
             return MuMargin(Interval(region.lower, a), Interval(b, region.upper), (a, b), outer)
     return None
 
 
 @cache
-def perron_eigenvalues(loop: Loop) -> MuMargin | None:
-    """``mu < mu*``; None where no mu will do, or no witness was found within the work allowed. Rigorous."""
+def perron_eigenvalues(loop: Loop, gaps: tuple[int, ...] = STABILITY_GAPS) -> MuMargin | None:
+    """``mu < mu*``, passed on either side by the first of the gaps that a witness is found for; None where no mu will
+    do, or no witness was found within the work allowed. Rigorous.
+    """
     star = next((star for bits in PRECISIONS[:3] if (star := mu_star(loop, bits)) is not None), None)
     if star is None or star.lower <= 0:
         return None
-    inside, outside = _last_stable(loop, star), _first_unstable(loop, star)
+    inside, outside = _last_stable(loop, star, gaps), _first_unstable(loop, star, gaps)
     if inside is None or outside is None:
         return None
     (b, q), (d, shown) = inside, outside
@@ -109,10 +111,10 @@ def perron_eigenvalues(loop: Loop) -> MuMargin | None:
     return MuMargin(Interval.exactly(0), star, (zero, b), (zero, d), {"Q": q} | shown)
 
 
-def _last_stable(loop: Loop, star: Interval) -> tuple[Fraction, list[list[Fraction]]] | None:
+def _last_stable(loop: Loop, star: Interval, gaps: tuple[int, ...]) -> tuple[Fraction, list[list[Fraction]]] | None:
     """A number just below mu*, and a Lyapunov form there."""
-    for gap in STABILITY_GAPS:
-        t = _below(star.lower, gap)
+    for gap in gaps:
+        t = below(star.lower, gap)
         for bits in LYAPUNOV_PRECISIONS:
             within = bits == LYAPUNOV_PRECISIONS[0] or loop.design.graph.agents**3 * bits**2 <= LYAPUNOV_WORK
             if within and (form := lyapunov_form_within(at(loop, t), bits)) is not None:
@@ -120,27 +122,27 @@ def _last_stable(loop: Loop, star: Interval) -> tuple[Fraction, list[list[Fracti
     return None
 
 
-def _first_unstable(loop: Loop, star: Interval) -> tuple[Fraction, dict[str, Any]] | None:
+def _first_unstable(loop: Loop, star: Interval, gaps: tuple[int, ...]) -> tuple[Fraction, dict[str, Any]] | None:
     """A number at or just above mu*, and what shows that P is not Schur there."""
     if star.is_exact and (is_dyadic(star.lower) or star.lower in (loop.design.mu, 1 / loop.degree_max)):
         form = invariant_form(loop, star.lower, PRECISIONS[0])
         if form is not None:
             return star.lower, {"Y": form}
-    for gap in STABILITY_GAPS:
-        t = _above(star.upper, gap)
+    for gap in gaps:
+        t = above(star.upper, gap)
         power = large_trace_power(loop, t, PRECISIONS[0])
         if power is not None and loop.design.graph.agents**3 * power.bit_length() ** 2 <= POWER_WORK:
             return t, {"power": power}
     return None
 
 
-def _above(x: Fraction, shift: int) -> Fraction:
+def above(x: Fraction, shift: int) -> Fraction:
     """A short number above x > 0, by ``2^-shift`` to ``2^(1-shift)`` of it."""
     unit = x / (1 << shift)
     return short_dyadic(x + unit, x + 2 * unit)
 
 
-def _below(x: Fraction, shift: int) -> Fraction:
+def below(x: Fraction, shift: int) -> Fraction:
     """A short number below x > 0, by as much."""
     unit = x / (1 << shift)
     return short_dyadic(x - 2 * unit, x - unit)

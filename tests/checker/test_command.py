@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from fomas_verify.checker import STATEMENTS, command, text
+from fomas_verify.checker.statements import CONDITIONS
 from tests.checker.builder import PAPER_EDGES, Json, certificate, claim, design, paper
 from tests.checker.cases import CASES
 
@@ -319,5 +320,6 @@ def test_the_digest_gate_goes_red(source: str) -> None:
 
 def test_the_statements_are_those_of_the_format() -> None:
     page = (ROOT / "docs" / "certificate-format.md").read_text()
-    table = re.findall(r"^\| `([a-z-]+)` \| `([^`]+)` \|$", page, re.MULTILINE)
-    assert {name: text for name, text in table if name not in ("format", "kind", "tool")} == STATEMENTS
+    for heading, statements in (("## 4.", STATEMENTS), ("## 8.", CONDITIONS)):
+        section = page.partition(heading)[2].partition("\n## ")[0]
+        assert dict(re.findall(r"^\| `([a-z-]+)` \| `([^`]+)` \|$", section, re.MULTILINE)) == statements

@@ -103,7 +103,7 @@ INTEGER = "expected an integer "
 CHANGES: list[tuple[str, object, str, str]] = [
     ("format", "fomas-certificate/2", "$.format", "expected \"fomas-certificate/1\", got 'fomas-certificate/2'"),
     ("format", None, "$.format", 'expected "fomas-certificate/1", got null'),
-    ("kind", "region", "$.kind", "expected \"design\", got 'region'"),
+    ("kind", "synthesis", "$.kind", 'expected "design" or "region", got \'synthesis\''),
     ("tool.name", "other", "$.tool.name", "expected \"fomas_verify\", got 'other'"),
     ("tool.version", "1" * 65, "$.tool.version", f"expected at most 64 characters, got '{'1' * 40}...'"),
     ("tool.version", 1, "$.tool.version", "expected a string, got 1"),
@@ -336,3 +336,10 @@ def test_a_defect_of_form_comes_before_a_false_claim() -> None:
     assert checked(document).exit_status == 1
     document["claims"][7]["witness"] = {}
     assert refusal(json.dumps(document).encode())[0] == "$.claims[7].witness"
+
+
+def test_another_format_is_named_before_the_keys_it_lacks_or_has() -> None:
+    for other in ({"format": "fomas-certificate/2"}, {"about": 1, "format": "fomas-certificate/2"}):
+        where, message = refusal(json.dumps(other).encode())
+        assert (where, message) == ("$.format", "expected \"fomas-certificate/1\", got 'fomas-certificate/2'")
+    assert refusal(b'{"format": "fomas-certificate/1"}') == ("$", 'missing key "kind"')

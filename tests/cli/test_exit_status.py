@@ -42,6 +42,7 @@ simulate = import_module('fomas_verify.cli.simulate')
 known = simulate.certified_of
 simulate.certified_of = lambda d: replace(known(d), bounds=replace(known(d).bounds, limit=(Fraction(9),)))"""
 CRASH = "def crash(*a, **k): raise ZeroDivisionError\n"
+REGION = CRASH + "import_module('fomas_verify.cli.region').find_region = crash"
 CHECK = CRASH + "import_module('fomas_verify.cli.check').check = crash"
 INIT = CRASH + "import_module('fomas_verify.cli.init').write_whole = crash"
 SCHEMA = CRASH + "import_module('fomas_verify.cli.schema').files = crash"
@@ -79,6 +80,13 @@ TABLE: dict[str, dict[int, list[tuple[str, str]]]] = {
         2: [("kernel broken.toml", ""), ("kernel good.toml --at 0", "")],
         4: [("kernel good.toml", MEMORY)],
         130: [("kernel good.toml", INTERRUPT.format("kernel", "kernel_rows"))],
+    },
+    "region": {
+        0: [("region start.toml", ""), ("region false.toml --json", ""), ("region good.toml -o region.json", "")],
+        2: [("region broken.toml", ""), ("region good.toml -o no/where.json", ""), ("region", "")],
+        3: [("region large.toml", "")],
+        4: [("region good.toml", REGION)],
+        130: [("region good.toml", INTERRUPT.format("region", "find_region"))],
     },
     "simulate": {
         0: [("simulate start.toml --samples 3", "")],
@@ -201,6 +209,6 @@ def test_the_status(folder: Path, run, command: str, status: int, call: str, cod
 def test_the_table_has_every_command_and_every_status() -> None:
     """0, 2, 4 and an interruption can happen to each; 1 and 3 to those that decide or check designs."""
     assert set(TABLE) == set(COMMANDS)
-    deciding = {"prove": {1, 3}, "check": {1, 3}, "gate": {1, 3}, "report": {3}}
+    deciding = {"prove": {1, 3}, "check": {1, 3}, "gate": {1, 3}, "report": {3}, "region": {3}}
     for command, statuses in TABLE.items():
         assert set(statuses) == {0, 2, 4, 130} | deciding.get(command, set())

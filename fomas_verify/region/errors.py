@@ -1,0 +1,11 @@
+"""Why a region is not given."""
+
+from __future__ import annotations
+
+from fomas_verify.exact.errors import FomasError
+
+
+class UndecidedRegionError(FomasError):
+    """A condition's interval was not decided, or not to be sought, within the work allowed."""
+
+    exit_status = 3
