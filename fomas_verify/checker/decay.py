@@ -113,7 +113,7 @@ def _rate_sign(facts: Facts, kappa: Fraction, rho: Fraction) -> int | None:
     if kappa == 1:
         return first
     budget = Budget(facts.design.agents)
-    sign = _by_levels(facts, BITS[0], BASES[0], kappa, rho, budget)
+    sign = _by_levels(facts, BITS[0], BASES[0], kappa, rho, budget, precise=False)
     if sign is None and _exceeded(facts, kappa, rho, budget):
         return -1
     attempts = (_by_levels(facts, bits, base, kappa, rho, budget) for bits in BITS for base in BASES[1:])
@@ -132,21 +132,23 @@ def _exceeded(facts: Facts, kappa: Fraction, rho: Fraction, budget: Budget) -> b
     return False
 
 
-def _by_levels(facts: Facts, bits: int, base: int, kappa: Fraction, rho: Fraction, budget: Budget) -> int | None:
+def _by_levels(
+    facts: Facts, bits: int, base: int, kappa: Fraction, rho: Fraction, budget: Budget, *, precise: bool = True
+) -> int | None:
     """By q_n = norm P^n / rho^n of the n = j base^i, and norm P^k / rho^k <= the product of those of the digits of k.
 
     Where a q_n <= 1, remainders below n are all that counts. Where the base exceeds that n, nothing is lost.
     """
-    unit = ball = measured(deviation(facts, bits, 1 / rho))
+    unit = ball = measured(deviation(facts, bits, 1 / rho), precise)
     levels = Fraction(1)
     digits = _Digits()
     j = 0
     while True:
         j += 1
         lower, upper = _ends(ball)
-        for precise in (False, True):
+        for closer in (False, True):
             if lower <= 1 < upper or levels * upper > kappa:
-                upper = norm_upper(ball, precise) * Fraction(2) ** ball.exponent
+                upper = norm_upper(ball, closer) * Fraction(2) ** ball.exponent
         if upper <= 1:
             return 1
         if levels * upper > kappa:
@@ -157,7 +159,7 @@ def _by_levels(facts: Facts, bits: int, base: int, kappa: Fraction, rho: Fractio
         budget.spend(1, bits)
         ball = product(ball, unit, bits)
         if j % (base - 1) == 0:
-            unit, levels, digits = measured(ball), levels * digits.largest(), _Digits()
+            unit, levels, digits = measured(ball, precise), levels * digits.largest(precise), _Digits()
             if levels > kappa:
                 return None
 
@@ -180,8 +182,8 @@ class _Digits:
         self.least = max(self.least, lower)
         self.rivals = [rival for rival in [*self.rivals, (upper, ball)] if rival[0] > self.least]
 
-    def largest(self) -> Fraction:
-        """An upper bound of all the norms, to 2^-30 or to the errors. Rigorous."""
+    def largest(self, precise: bool = True) -> Fraction:
+        """An upper bound of all the norms, to 2^-30 or to the errors, less closely where not `precise`. Rigorous."""
         # A rival that was dropped is below the lower bound of one that stays.
-        uppers = [norm_upper(ball) * Fraction(2) ** ball.exponent for _, ball in self.rivals]
+        uppers = [norm_upper(ball, precise) * Fraction(2) ** ball.exponent for _, ball in self.rivals]
         return max([self.least, *uppers])

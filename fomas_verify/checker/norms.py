@@ -62,9 +62,9 @@ def norm_upper(ball: Ball, precise: bool = True) -> int:
     return min(above + ball.error, ball.frobenius)
 
 
-def measured(ball: Ball) -> Ball:
+def measured(ball: Ball, precise: bool = True) -> Ball:
     """The same matrix, for many products: errors are then stretched by its norm only."""
-    return replace(ball, known=norm_upper(ball))
+    return replace(ball, known=norm_upper(ball, precise))
 
 
 def _is_above(ball: Ball, bound: int) -> bool:

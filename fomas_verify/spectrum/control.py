@@ -25,6 +25,9 @@ RATE_BASE, COARSE_RATE_BASE, RATE_LEVELS, SMALL_NETWORK = 32, 4, 16, 20
 """kappa is sought among the powers up to base^levels, by fewer norms and less tightly where the network is not
 small."""
 
+KAPPA_ROOM = Fraction(101, 100)
+"""kappa is rounded up by this to its square, so that it has few digits and few norms show it."""
+
 EVERY_POWER = 64
 """norm P^k is computed for every k up to here, and at powers of two."""
 
@@ -130,7 +133,8 @@ def certified_rate(loop: Loop, bits: int) -> Rate | None:
                 ratio = (Interval.exactly(run.norm(power, ROUGH).upper) / bound).upper
                 if ratio <= 1:
                     kappa = round_up(kappa * worst, bits)
-                    return Rate(short_dyadic(kappa, kappa * Fraction(1001, 1000)), rho)
+                    room = kappa * KAPPA_ROOM
+                    return Rate(short_dyadic(room, room * KAPPA_ROOM) if kappa > 1 else kappa, rho)
                 if bound.upper < LEAST_BOUND:
                     return None
                 worst = max(worst, ratio)
