@@ -8,11 +8,22 @@ from typing import Any
 import mpmath
 import pytest
 
-from fomas_verify.checker import gain, member_values, members, powers
+from fomas_verify.checker import corners, gain, member_values, members, parts, powers
 from fomas_verify.checker.designs import Interval
 from fomas_verify.checker.gain import Gain
 from fomas_verify.checker.powers import Enclosure, point
-from tests.checker.builder import PAPER_EDGES, complete, design, directed_cycle, laplacian, path
+from tests.checker.builder import (
+    PAPER_EDGES,
+    Json,
+    certificate,
+    claim,
+    complete,
+    design,
+    directed_cycle,
+    laplacian,
+    outcome,
+    path,
+)
 from tests.checker.test_samples import facts
 
 TINY = mpmath.mpf(10) ** -50
@@ -72,6 +83,21 @@ def test_mu_is_between(seed: int, bits: int) -> None:
         assert bits < 20 or slab.upper <= over.upper * Fraction(101, 100)
 
 
+@pytest.mark.parametrize("seed", range(40))
+@pytest.mark.parametrize("bits", [3, 8, 20])
+def test_mu_is_between_where_it_is_nearly_exponential(seed: int, bits: int) -> None:
+    """h of many digits and a narrow part: the bound from either end leaves no room for one that is too small."""
+    choose = random.Random(seed)
+    h = Fraction(choose.randint(2, 9)) ** choose.choice([-20, 20])
+    found = Gain((Fraction(1), Fraction(1)), None, (h, h))
+    first = Fraction(choose.randint(100, 900), 1000)
+    last = first + Fraction(1, 10 ** choose.randint(2, 5))
+    with mpmath.workdps(60):
+        box = found.over(first, last, bits)
+        for alpha in (first, (first + last) / 2, last):
+            assert exact(box.lower) <= mu(Fraction(1), h, exact(alpha)) <= exact(box.upper)
+
+
 @pytest.mark.parametrize("seed", range(60))
 @pytest.mark.parametrize("bits", [6, 12, 60])
 def test_the_least_and_the_greatest_mu(seed: int, bits: int, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -93,6 +119,17 @@ def test_the_least_and_the_greatest_mu(seed: int, bits: int, monkeypatch: pytest
         assert bits < 60 or box.upper <= box.lower * Fraction(11, 10)
 
 
+def test_the_bound_over_a_part_takes_the_ends_that_are_worst(monkeypatch: pytest.MonkeyPatch) -> None:
+    """mu is 1 to 4 at alpha = 0 and 1 to 2 at 1/2, and concave in the logarithm: at 1 it may be 2 * 2 / 1."""
+    ends = {Fraction(0): (1, 4), Fraction(1, 2): (1, 2), Fraction(1): (3, 16)}
+    boxes = {alpha: Enclosure(Fraction(low), Fraction(high)) for alpha, (low, high) in ends.items()}
+    monkeypatch.setattr(Gain, "_ends", lambda self, alpha, bits: (boxes[alpha], boxes[alpha]))
+    one = Fraction(1)
+    box = Gain((one, one), None, (one, one)).over(Fraction(1, 2), one, 20)
+    assert Fraction(99, 100) <= box.lower <= 1
+    assert 4 <= box.upper <= Fraction(401, 100)
+
+
 def test_the_middle_and_the_radius() -> None:
     box = Enclosure(Fraction(-1), Fraction(4))
     assert (box.middle, box.radius) == (Fraction(3, 2), Fraction(5, 2))
@@ -105,6 +142,71 @@ def test_mu_given() -> None:
         assert box == Enclosure(Fraction(1, 3), Fraction(2, 3))
     assert found.least(*ends) == point(Fraction(1, 3))
     assert found.greatest(*ends) == point(Fraction(2, 3))
+
+
+@pytest.mark.parametrize("seed", range(40))
+@pytest.mark.parametrize("bits", [6, 128])
+def test_what_is_said_of_a_part_of_alpha_is_true(seed: int, bits: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """K_n, where lambda2 and sigma are plain: seen over a part, a claim is true, or fails, at every alpha in it."""
+    for module in (parts, corners):
+        monkeypatch.setattr(module, "_BITS", bits)
+    choose = random.Random(seed)
+    n, gamma, h = choose.randint(2, 5), Fraction(choose.randint(1, 20), 40), Fraction(choose.randint(5, 30), 10)
+    graph = facts(design(complete(n), n, mu="1")).graph
+    curve = parts.Curve(graph, Gain((gamma, gamma), None, (h, h)))
+    seen = set()
+    for width in (1, 10, 60):
+        first = Fraction(choose.randint(0, 100 - width), 100)
+        last = first + Fraction(width, 100)
+        said = {name: getattr(curve, name)(first, last) for name in ("remembers", "forgets", "contracts", "expands")}
+        seen |= {name for name, truth in said.items() if truth}
+        with mpmath.workdps(60):
+            for k in range(1, 20):
+                alpha = exact(first + (last - first) * Fraction(k, 20))
+                beta = 1 - n * mu(gamma, h, alpha)
+                c = 2**alpha - 1
+                remembers = -mpmath.sqrt(mpmath.mpf(3) ** alpha - 2**alpha) <= beta <= c
+                for name, truth in zip(said, (remembers, not remembers, abs(beta) <= c, abs(beta) > c), strict=True):
+                    assert truth or not said[name], (name, first, last)
+    assert seen or bits < 128
+
+
+def test_what_is_seen_of_a_part_of_alpha() -> None:
+    """K_5: beta = 1 - 5 mu = -19/20 is below -sqrt(c_2) > -0.95 up to alpha = 0.94; 1/2 is above c_1 up to 0.58."""
+    graph = facts(design(complete(5), 5, mu="1")).graph
+    low = parts.Curve(graph, Gain(None, (Fraction(39, 100), Fraction(39, 100)), None))
+    high = parts.Curve(graph, Gain(None, (Fraction(1, 10), Fraction(1, 10)), None))
+    for curve in (low, high):
+        assert curve.forgets(Fraction(1, 10), Fraction(1, 2))
+        assert curve.expands(Fraction(1, 10), Fraction(1, 2))
+    assert high.remembers(Fraction(3, 5), Fraction(1))
+    assert high.contracts(Fraction(3, 5), Fraction(1))
+    assert not high.remembers(Fraction(1, 2), Fraction(1))
+
+
+def said(about: Json, name: str, verdict: str, **witness: Any) -> tuple[str, str]:
+    return outcome(certificate(about, [claim(name, verdict, **witness)]), name)
+
+
+@pytest.mark.parametrize(("greatest", "status"), [("33/100", "accepted"), ("1/3", "refused"), ("1/2", "refused")])
+def test_the_gain_bound_of_every_member(greatest: str, status: str) -> None:
+    """K_4 has D = 3."""
+    about = {**design(complete(4), 4), "alpha": "1/2", "mu": ["1/10", greatest]}
+    assert said(about, "gain-bound", "proved")[0] == status
+
+
+def test_the_ends_of_a_margin_in_alpha_stand_in_order() -> None:
+    """K_2, mu = 1/4: beta = 1/2 <= 2^alpha - 1 from alpha = log2 1.5 = 0.58496... on; 0.5 lies below, not above."""
+    document = certificate(design(path(2), 2, mu="1/4"))
+    name = "margins.memory-inequality.alpha"
+    for outer, status in ((["1/2", None], "accepted"), ([None, "1/2"], "refused"), (["99/100", None], "refused")):
+        margin = {"inner": ["3/5", "19/20"], "outer": outer}
+        document["values"] = {"margins": {"memory-inequality": {"alpha": margin}}}
+        assert outcome(document, name)[0] == status
+    low = certificate(design(path(2), 2, "1/2", mu="1/4"))
+    for outer, status in (([None, "3/5"], "accepted"), (["3/5", None], "refused")):
+        low["values"] = {"margins": {"memory-inequality": {"alpha": {"inner": ["1/4", "29/50"], "outer": outer}}}}
+        assert outcome(low, name)[0] == status
 
 
 def test_signs_of_what_is_enclosed() -> None:

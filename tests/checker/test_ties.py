@@ -6,8 +6,11 @@ import mpmath
 import pytest
 
 from fomas_verify.checker import corners
+from fomas_verify.checker.field import isolate
+from fomas_verify.checker.operators import compare_peak
+from fomas_verify.checker.powers import Enclosure, point
 from fomas_verify.checker.ruling import Refused, Undecided, need, need_that
-from tests.checker.builder import Json, both_ways, certificate, checked, claim, complete, design, outcome
+from tests.checker.builder import PAPER_EDGES, Json, both_ways, certificate, checked, claim, complete, design, outcome
 from tests.checker.test_samples import facts
 
 FEEBLE = both_ways([(1, 2), (2, 3), (1, 3), (4, 5), (5, 6), (4, 6)]) + both_ways([(3, 4)], "1/10")
@@ -24,6 +27,15 @@ def test_a_trajectory_at_rest_after_one_step_still_needs_the_decay(powers: int, 
     about = design(FEEBLE, 6, mu="1/3", x0=["1", "-1", "0", "0", "0", "0"])
     found = said(about, "trajectory-norm-bound", "proved", samples=0, powers=powers)
     assert found == DECAY if status == "refused" else found[0] == status
+
+
+@pytest.mark.parametrize(("samples", "status"), [(0, "refused"), (1, "refused")])
+def test_the_last_of_the_samples_is_looked_at(samples: int, status: str) -> None:
+    """On the paper's design norm u_1 is 1.011 norm u_0 from this x_0, and no later control is larger than u_0."""
+    about = design(PAPER_EDGES, 5, gamma="3/20", h="17/20", x0=["0", "-1", "-1", "-1", "1"])
+    found = said(about, "trajectory-norm-bound", "proved", samples=samples, powers=1)
+    reason = "norm(P^n e) <= c_n norm(e) for n = K+1..K+m" if samples == 0 else "norm(Phi_k e) <= norm(e) for k = 1..K"
+    assert found == (status, f"not true: {reason}")
 
 
 def hair(x: mpmath.mpf, digits: int) -> tuple[str, str]:
@@ -69,6 +81,26 @@ def test_corners_a_hair_from_either_end(alpha: str, weight: str, digits: int) ->
             assert ask(graph, Fraction(alpha), Fraction(mu), False) in (sign, None)
 
 
+@pytest.mark.parametrize("alpha", ["1/2", "9/10", "1/7"])
+@pytest.mark.parametrize("digits", [10, 39, 45, 100])
+def test_corners_a_hair_from_either_end_where_lambda2_is_found_exactly(alpha: str, digits: int) -> None:
+    """The paper's graph has lambda2 = 1: the ends are at mu = 1 - c_1 and 1 + sqrt c_2."""
+    graph = facts(design(PAPER_EDGES, 5, alpha, mu="1")).graph
+    assert corners.lambda2(graph) == point(Fraction(1))
+    with mpmath.workdps(digits + 30):
+        a = mpmath.mpf(Fraction(alpha).numerator) / Fraction(alpha).denominator
+        first, second = hair(2 - 2**a, digits), hair(1 + mpmath.sqrt(mpmath.mpf(3) ** a - mpmath.mpf(2) ** a), digits)
+    for ask, ends in ((corners.first_sign, first), (corners.second_sign, second)):
+        for mu, sign in zip(ends, (-1, 1), strict=True):
+            assert ask(graph, Fraction(alpha), Fraction(mu)) == sign
+            assert ask(graph, Fraction(alpha), Fraction(mu), False) in (sign, None)
+    assert [corners.first_sign(graph, Fraction(0), mu) for mu in (Fraction(9, 10), Fraction(1), Fraction(2))] == [
+        -1,
+        0,
+        1,
+    ]
+
+
 def test_corners_at_the_ends_of_alpha() -> None:
     """K_4: beta = sigma = 0 = c_1 at alpha = 0, mu = 1/4, where c_2 = 0 too; c_1 = c_2 = 1 at alpha = 1."""
     graph = facts(design(complete(4), 4, mu="1")).graph
@@ -88,6 +120,25 @@ def test_corners_at_the_ends_of_alpha() -> None:
         -1,
     ]
     assert corners.first_sign(graph, one, Fraction(1, 10**30)) == 1
+
+
+@pytest.mark.parametrize(("lower", "upper"), [("1/2", "2"), ("1/2", "7/3"), ("1/3", "3/2")])
+def test_a_root_at_the_excluded_end_is_divided_out(lower: str, upper: str) -> None:
+    """(x - lower)(x^2 - 2) on (lower, upper] is sqrt 2."""
+    a = Fraction(lower)
+    root = isolate([2 * a, Fraction(-2), -a, Fraction(1)], a, Fraction(upper))
+    assert root is not None
+    for coefficients, sign in (((-2, 0, 1), 0), ((-7, 5), 1), ((-17, 12), -1), ((-a, 1), 1)):
+        exact = [Fraction(c) for c in coefficients]
+        assert root.element(exact, root.integer_scale(exact)).sign() == sign
+
+
+def test_a_number_that_may_be_less_than_the_peak_is_not_taken_for_it() -> None:
+    """K_4 at mu = 1/4: the peak is 1."""
+    found = facts(design(complete(4), 4, mu="1/4"))
+    for lower, upper, sign in (("9/10", "1", None), ("9/10", "11/10", None), ("9/10", "19/20", -1), ("1", "1", 0)):
+        u = Enclosure(Fraction(lower), Fraction(upper))
+        assert compare_peak(found, lambda _, u=u: u) == sign
 
 
 def test_settling_at_the_first_sample() -> None:
