@@ -10,6 +10,7 @@ import argparse
 import multiprocessing
 import sys
 from collections import Counter
+from collections.abc import Iterable
 from functools import partial
 
 from . import handmade_family
@@ -21,7 +22,7 @@ from .family_differential import compare_family
 from .family_strata import family_at
 from .handmade import certificate
 from .handmade_margins import margins
-from .mutants import mutants
+from .mutants import mutants, sweep
 from .oracle import CLAIMS
 from .strata import design_at
 
@@ -38,6 +39,10 @@ def _designs(seed: int, index: int) -> Comparison:
 
 def _mutants(golden: dict[str, bytes], seed: int, count: int, start: int) -> Score:
     return duel(mutants(golden, seed, min(CHUNK, count - start), start))
+
+
+def _fields(certificate: tuple[str, bytes]) -> Score:
+    return duel(sweep(*certificate))
 
 
 def _golden() -> dict[str, bytes]:
@@ -61,10 +66,10 @@ def attack_prover(pool: multiprocessing.pool.Pool, seed: int, count: int) -> boo
     return not faults and share < 0.01
 
 
-def attack_checker(pool: multiprocessing.pool.Pool, seed: int, count: int) -> bool:
-    """Mutants of golden certificates; whether all is well."""
+def attack_checker(scores: Iterable[Score]) -> bool:
+    """Print what came of mutants of golden certificates; whether all is well."""
     total = Score(Counter())
-    for score in pool.imap_unordered(partial(_mutants, _golden(), seed, count), range(0, count, CHUNK)):
+    for score in scores:
         total.add(score)
     faults = unacceptable(total)
     print(*faults, sep="\n")
@@ -81,12 +86,17 @@ def main(arguments: list[str]) -> int:
     parser = argparse.ArgumentParser(prog="python -m tests.attack", description=__doc__)
     parser.add_argument("--mutants", type=int, default=2000)
     parser.add_argument("--designs", type=int, default=300)
+    parser.add_argument("--fields", action="store_true", help="also every edit of every field of each certificate")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=multiprocessing.cpu_count())
     given = parser.parse_args(arguments)
     with multiprocessing.Pool(given.jobs) as pool:
         well = [attack_prover(pool, given.seed, given.designs)] if given.designs else []
-        well += [attack_checker(pool, given.seed, given.mutants)] if given.mutants else []
+        if given.mutants:
+            drawn = partial(_mutants, _golden(), given.seed, given.mutants)
+            well.append(attack_checker(pool.imap_unordered(drawn, range(0, given.mutants, CHUNK))))
+        if given.fields:
+            well.append(attack_checker(pool.imap_unordered(_fields, _golden().items())))
     return 0 if all(well) else 1
 
 

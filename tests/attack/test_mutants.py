@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import islice
 from random import Random
 
 import pytest
@@ -85,30 +86,15 @@ def test_two_thousand_mutants(golden):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["paper", "c4-third", "unbalanced"])
-def test_every_edit_of_every_field(golden, name):
-    assert_stood(duel(sweep(name, golden[f"{name}, proved"])))
-
-
-@pytest.fixture(scope="module")
-def single_edits(golden) -> dict[str, list[bytes]]:
-    """Mutants of the paper's certificate by one field, by what they deserve."""
-    sorted_out: dict[str, list[bytes]] = {"true": [], "false": [], "malformed": [], "unknown": []}
-    for mutant in sweep("paper", golden["paper, proved"]):
-        sorted_out[judge(mutant.data).word].append(mutant.data)
-    return sorted_out
-
-
-@pytest.mark.slow
-def test_two_hundred_false_fields_are_refused(single_edits):
-    assert len(single_edits["false"]) >= 200
-    assert [data for data in single_edits["false"] if check_status(data) not in (1, 2)] == []
-
-
-@pytest.mark.slow
-def test_fifty_true_changes_are_accepted(single_edits):
-    assert len(single_edits["true"]) >= 50
-    assert [data for data in single_edits["true"] if check_status(data) != 0] == []
+@pytest.mark.parametrize(
+    ("name", "refused", "accepted"), [("paper", 200, 50), ("c4-third", 20, 20), ("unbalanced", 5, 5)]
+)
+def test_edits_of_every_field(golden, name, refused, accepted):
+    """Each fifth of the edits that fit; `python -m tests.attack --fields` tries all."""
+    score = duel(islice(sweep(name, golden[f"{name}, proved"]), None, None, 5))
+    assert_stood(score)
+    assert score.counts["false", 1] + score.counts["false", 2] >= refused
+    assert score.accepted("true") >= accepted
 
 
 @pytest.mark.parametrize(("word", "status"), [("true", (0,)), ("false", (1,)), ("malformed", (2,))])

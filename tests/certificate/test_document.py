@@ -81,7 +81,7 @@ def test_no_binary_float_and_dyadic_witnesses(name: str) -> None:
 
 
 def test_statements_are_those_of_the_format_to_the_letter(checkout: Path) -> None:
-    page = (checkout / "docs/certificate-format.md").read_text()
+    page, _, _ = (checkout / "docs/certificate-format.md").read_text().partition("\n## 8. Regions\n")
     table = dict(re.findall(r"^\| `([a-z]+-[a-z-]+)` \| `([^|`]*)` \|$", page, re.M))
     assert len(table) >= 8
     assert {claim.ID: claim.STATEMENT for claim in CLAIMS} == table

@@ -127,10 +127,8 @@ def test_a_hair_off_a_tie(
 
 
 def test_every_claim_stands_once_in_the_order_of_the_contract(checkout: Path) -> None:
-    rows = re.findall(
-        r"^\| `([a-z]+-[a-z-]+)` \| `[^|]*` \|$", (checkout / "docs/certificate-format.md").read_text(), re.M
-    )
-    assert [claim.ID for claim in CLAIMS] == rows
+    page, _, _ = (checkout / "docs/certificate-format.md").read_text().partition("\n## 8. Regions\n")
+    assert [claim.ID for claim in CLAIMS] == re.findall(r"^\| `([a-z]+-[a-z-]+)` \| `[^|]*` \|$", page, re.M)
 
 
 @pytest.mark.parametrize("verdict", list(Verdict))
