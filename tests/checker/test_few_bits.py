@@ -315,6 +315,24 @@ def test_what_is_said_of_stability_is_true(seed: int) -> None:
                     assert schur._by_squaring(facts_of(changed), bits) in (None, sign(off)), changed
 
 
+@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize("given", ["mu", "gamma"])
+def test_what_is_said_of_the_reach_is_true(given: str, seed: int, few_bits: None) -> None:
+    """K_n with mu near 1/n and alpha >= 1/2, where the peak is 1: the reach is gamma n norm(x_0 - mean)."""
+    choose = random.Random(seed)
+    n, alpha, h = choose.randint(2, 5), f"{choose.randint(5, 9)}/10", f"{choose.randint(1, 40)}/7"
+    x0 = [str(choose.randint(-9, 9)) for _ in range(n - 1)] + ["10"]
+    mean = sum(map(Fraction, x0), Fraction(0)) / n
+    square = sum(((Fraction(x) - mean) ** 2 for x in x0), Fraction(0))
+    with mpmath.workdps(60):
+        gamma = mpmath.gamma(1 + real(alpha)) / real(h) ** real(alpha) / n
+        gain = {"mu": f"1/{n}"} if given == "mu" else {"gamma": f"{int(1000 * gamma)}/1000"}
+        found = facts_of(design(complete(n), n, alpha, h=h, x0=x0, **gain))
+        exact = (gamma if given == "mu" else real(gain["gamma"])) * n * mpmath.sqrt(real(str(square)))
+        for x in near(exact, choose):
+            assert sizes._reach_below(found, x) in (None, sign(real(str(x)) - exact))
+
+
 @pytest.mark.parametrize("bits", [3, 10, 60])
 def test_roots_and_gains_of_reach(bits: int) -> None:
     choose = random.Random(bits)

@@ -18,7 +18,16 @@ from fomas_verify.checker.box import Box
 from fomas_verify.checker.powers import Enclosure
 from fomas_verify.checker.ruling import Undecided
 from tests.checker.builder import PAPER_EDGES, Json, complete, cycle, design, directed_cycle, path
-from tests.checker.sampled import norm, peak_by_floats, power_norm, real, resolvent, sample_norm, step_matrix
+from tests.checker.sampled import (
+    norm,
+    peak_by_floats,
+    power_norm,
+    power_norms_by_floats,
+    real,
+    resolvent,
+    sample_norm,
+    step_matrix,
+)
 from tests.checker.test_few_bits import drawn, near, sign
 from tests.checker.test_samples import facts
 
@@ -102,10 +111,23 @@ def test_a_fall_is_seen_at_the_ends_that_are_worst() -> None:
     """p_m c_(K+1) < c_(K+1+m) for p_m <= 1/2, c_(K+1) in [20, 100] and c_(K+1+m) in [51, 90], of 1024."""
     found = operators.Operators(facts(design(complete(3), 3, mu="1/6")), 10)
     found.scale = 10
-    found.power_upper = lambda _: 512  # type: ignore[method-assign]
+    found.power_upper = lambda _: 512
     for last, seen in ((51, False), (52, True)):
-        found.kernel = Responses({3: (20, 100), 7: (last, 90)})  # type: ignore[assignment]
+        found.kernel = Responses({3: (20, 100), 7: (last, 90)})
         assert found._falls(2, 4) == seen
+
+
+def test_the_peak_asks_of_the_powers_what_the_lower_bound_of_the_memory_allows() -> None:
+    """u = 2 and c_1 in [20, 100] of 1024: norm P < 40."""
+    found = operators.Operators(facts(design(complete(3), 3, mu="1/6")), 10)
+    found.scale, found.one = 10, 1024
+    found.kernel = Responses({1: (20, 100)})
+    asked: list[int] = []
+    found.sample_sign = lambda *_: 1
+    found.power_sign = lambda n, lower, upper: asked.append(lower) or 1
+    found._stays_below = lambda *_: True
+    assert found.peak_sign(Enclosure(Fraction(2), Fraction(2))) == 1
+    assert asked == [40]
 
 
 class Responses:
@@ -236,6 +258,66 @@ def test_what_is_said_of_rates_is_true(seed: int, base: int) -> None:
                 assert said != -1 or sizes[-1] > 1 or largest > real(str(kappa)) * (1 - mpmath.mpf(10) ** -25)
             grows = decay._exceeded(found, kappa, rho, decay.Budget(about["agents"]))
             assert not grows or largest > real(str(kappa)) * (1 - mpmath.mpf(10) ** -25) or sizes[-1] > sizes[-2]
+
+
+@pytest.mark.parametrize("base", [2, 3, 4, 5, 32])
+def test_a_norm_that_rises_first_is_not_hidden_by_the_levels(base: int) -> None:
+    """norm P^k / rho^k is 1.385, 1.551, 1.871, 1.966, 1.570, 0.889, then less: by numpy's norms."""
+    edges = [[4, 3, 1], [3, 1, 2], [1, 2, 2], [2, 4, 2], [2, 3, 1], [4, 1, 1], [1, 3, 1], [3, 2, 1]]
+    about = design([[i, j, str(weight)] for i, j, weight in edges], 4, mu="2/5")
+    found, rho = facts(about), Fraction(729, 1000)
+    sizes = power_norms_by_floats(about, 0.729, 40)
+    assert (sizes.index(max(sizes)), sizes[5] < 1, 1.96 < max(sizes) < 1.97) == (3, True, True)
+    for kappa in ("11/10", "7/5", "8/5", "19/10", "196/100"):
+        for bits in (20, 60):
+            assert decay._by_levels(found, bits, base, Fraction(kappa), rho, decay.Budget(4)) != 1
+    assert decay._by_levels(found, 60, 32, Fraction(197, 100), rho, decay.Budget(4)) == 1
+
+
+class Place(int):
+    """n, in place of the ball of P^n / rho^n."""
+
+    exponent = 0
+
+
+@pytest.mark.parametrize(("kappa", "said"), [("29/10", -1), ("13/2", None), ("89/10", None), ("91/10", 1)])
+def test_levels_multiply(kappa: str, said: int | None, monkeypatch: pytest.MonkeyPatch) -> None:
+    """q_1 .. q_3 = 3, 2, 3/2 and q_4 = 3, q_8 = 1/2: what is below 8 is at most 3 times 3."""
+    q = {1: Fraction(3), 2: Fraction(2), 3: Fraction(3, 2), 4: Fraction(3), 8: Fraction(1, 2)}
+    monkeypatch.setattr(decay, "deviation", lambda *_: Place(1))
+    monkeypatch.setattr(decay, "measured", lambda ball, *_: ball)
+    monkeypatch.setattr(decay, "product", lambda ball, unit, bits: Place(ball + unit))
+    monkeypatch.setattr(decay, "_ends", lambda ball: (q[ball], q[ball] + 1))
+    monkeypatch.setattr(decay, "norm_upper", lambda ball, *_: q[ball])
+    monkeypatch.setattr(decay, "compare_norm_with", lambda ball, s, bits: sign(s - q[ball]) or None)
+    found = facts(design(complete(3), 3, mu="1/6"))
+    assert decay._by_levels(found, 128, 4, Fraction(kappa), Fraction(1, 2), decay.Budget(3)) == said
+
+
+@pytest.mark.parametrize(
+    ("one", "two", "four", "bounds"), [(2, 4, 5, [2, 4, 8, 5, 10, 20, 40]), (4, 2, 5, [4, 2, 8, 5, 20, 10, 40])]
+)
+def test_a_power_is_bounded_by_what_its_exponents_add_up_to(
+    one: int, two: int, four: int, bounds: list[int], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """p_3 <= p_1 p_2, p_5 <= p_1 p_4, p_6 <= p_2 p_4, p_7 <= p_3 p_4."""
+    found = operators.Operators(facts(design(complete(3), 3, mu="1/6")), 10)
+    norms = {1: one * found.one, 2: two * found.one, 4: four * found.one}
+    monkeypatch.setattr(operators, "norm_upper", lambda n: norms[n])
+    found.samples.power = lambda n: n
+    assert [found.power_upper(n) // found.one for n in range(1, 8)] == bounds
+
+
+def test_going_back_in_the_samples_begins_again() -> None:
+    """The resolvent's bounds widen as more of it is known: Phi_n is the same to its error."""
+    found = samples.Samples(facts(DESIGNS[0]), 64, operators._centring(5, 64))
+    powers, forward = [found.power(n) for n in range(6)], [found.sample(n) for n in range(6)]
+    for n in (5, 2, 3, 0, 4):
+        assert found.power(n) == powers[n]
+        again = found.sample(n)
+        off = [x - y for a, b in zip(again.columns, forward[n].columns, strict=True) for x, y in zip(a, b, strict=True)]
+        assert max(map(abs, off)) <= again.error + forward[n].error
+    assert len({repr(ball.columns) for ball in powers + forward}) == 11
 
 
 def test_the_ends_of_a_norm_and_the_largest_of_a_level() -> None:

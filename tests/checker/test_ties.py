@@ -5,7 +5,7 @@ from fractions import Fraction
 import mpmath
 import pytest
 
-from fomas_verify.checker import corners
+from fomas_verify.checker import corners, relation
 from fomas_verify.checker.field import isolate
 from fomas_verify.checker.operators import compare_peak
 from fomas_verify.checker.powers import Enclosure, point
@@ -204,6 +204,22 @@ def test_need(sign: int | None, allowed: tuple[int, ...]) -> None:
     else:
         with pytest.raises(Refused, match=r"^not true: so$"):
             need(sign, allowed, "so")
+
+
+def test_all_signs_are_looked_at() -> None:
+    """1 if all are, else the first that is not."""
+    signs = {1: 1, 2: None, 3: -1, 4: 0}
+    asked = ((), (1,), (1, 1), (1, 2, 3), (1, 1, 3), (3, 1), (1, 4), (4, 1))
+    assert [relation._all(signs.__getitem__, numbers) for numbers in asked] == [1, 1, 1, None, -1, -1, 0, 0]
+
+
+@pytest.mark.parametrize(
+    ("lower", "upper", "sign"), [("-9/10", "3", None), ("9/10", "3", 1), ("-3", "-1/9", -1), ("0", "7/10", -1)]
+)
+def test_sigma_against_a_number_of_either_sign(lower: str, upper: str, sign: int | None) -> None:
+    """K_2 at mu = 1/10: sigma = 0.8."""
+    box = Enclosure(Fraction(lower), Fraction(upper))
+    assert facts(design(complete(2), 2, mu="1/10")).compare_sigma(lambda _: box) == sign
 
 
 def test_need_that() -> None:
