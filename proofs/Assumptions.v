@@ -173,8 +173,12 @@ Goal True. idtac "==" "stability_limit". Abort.
 Print Assumptions stability_limit.
 Goal True. idtac "==" "claims_are_one". Abort.
 Print Assumptions claims_are_one.
+Goal True. idtac "==" "eqL3_needs_spectrum". Abort.
+Print Assumptions eqL3_needs_spectrum.
 Goal True. idtac "==" "step_decided". Abort.
 Print Assumptions step_decided.
+Goal True. idtac "==" "symmetric_step". Abort.
+Print Assumptions symmetric_step.
 Goal True. idtac "==" "step_fails". Abort.
 Print Assumptions step_fails.
 Goal True. idtac "==" "region_as_stated". Abort.

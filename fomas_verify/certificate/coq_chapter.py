@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from fomas_verify.certificate.coq_enclosures import Enclosures, quotient, table
-from fomas_verify.certificate.coq_factor import Factor
+from fomas_verify.certificate.coq_factor import Factor, Squares
 from fomas_verify.certificate.coq_figures import Figures
 from fomas_verify.claims.verdict import Decision, Verdict
 from fomas_verify.enclosure.interval import Interval
@@ -104,3 +104,8 @@ def vector(e: list[int]) -> str:
 def factor_text(shown: Factor) -> str:
     """Weight, factor, scale and bound of the residual."""
     return f"{shown.weight}\n    {table(shown.rows)}\n    {shown.scale} {shown.eps}"
+
+
+def squares_text(shown: Squares) -> str:
+    """Rows, weights and scale."""
+    return f"{table(shown.rows)}\n    {vector(shown.weights)} {shown.scale}"

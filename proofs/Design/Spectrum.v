@@ -226,3 +226,8 @@ Proof.
   intros HN H1 D NS [B H]. apply NS, (proj1 (claims_are_one N A alpha gamma h HN H1 D)).
   intros x0 x u L. apply (H x0 x u L).
 Qed.
+
+Lemma no_spectrum_norm_bound N A alpha gamma h t : (2 <= N)%nat -> assumption1 N A ->
+  design alpha gamma h -> 0 < t < mu_of alpha gamma h -> ~ perron_spectrum N A t ->
+  ~ control_norm_bound N A alpha gamma h.
+Proof. intros HN H1 D Ht NS H. exact (NS (eqL3_needs_spectrum N A alpha gamma h t HN H1 D H Ht)). Qed.

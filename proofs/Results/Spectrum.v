@@ -2,9 +2,10 @@
     the claims on controls and on consensus. *)
 From Coq Require Import Reals Arith Lia Lra.
 From Coquelicot Require Import Coquelicot.
-From Fomas Require Import Model.Vectors Model.Graph Model.Loop Model.Coordinates Statements.
-From Fomas Require Import Facts.Sums Facts.Vectors Facts.Graph Facts.Phi Facts.Spectrum.
-From Fomas Require Import Results.Consensus Results.Equivalence Results.Coordinates Results.Stability.
+From Fomas Require Import Model.Vectors Model.Kernel Model.Graph Model.Loop Model.Coordinates Statements.
+From Fomas Require Import Facts.Sums Facts.Vectors Facts.Graph Facts.Kernel Facts.Resolvent Facts.Phi
+  Facts.Spectrum.
+From Fomas Require Import Results.Telescoping Results.ClosedLoop Results.BalancedGraph Results.NormBound Results.Consensus Results.Equivalence Results.Coordinates Results.Stability.
 Open Scope R_scope.
 
 (** The unit vectors span R^n. *)
@@ -186,4 +187,71 @@ Proof.
       replace (mu * (mu * (((1 - a) / mu) ^ 2 + (- b / mu) ^ 2))) with ((1 - a) ^ 2 + b ^ 2) in W
         by (field; lra).
       replace (mu * (2 * ((1 - a) / mu))) with (2 * (1 - a)) in W by (field; lra). lra.
+Qed.
+
+(** * eqL3 *)
+
+Lemma simple_zero N A x : (1 <= N)%nat -> assumption1 N A ->
+  (forall i, (i < N)%nat -> mv N (laplacian N A) (mv N (laplacian N A) x) i = 0) ->
+  forall i, (i < N)%nat -> x i = x 0%nat.
+Proof.
+  intros HN H1 Hx. assert (bal : balanced N A) by apply H1.
+  destruct (lambda2_positive N A H1) as [[kappa [Pk K]] _].
+  assert (vanish : forall y, zero_sum N y -> (forall i, (i < N)%nat -> mv N (laplacian N A) y i = 0) ->
+            forall i, (i < N)%nat -> y i = 0).
+  { intros y Hy E. apply dot_zero. specialize (K y Hy). rewrite form_sym in K.
+    assert (Z : dot N y (mv N (laplacian N A) y) = 0).
+    { apply sum_zero. intros i Hi. rewrite E by exact Hi. ring. }
+    assert (D0 := dot_nonneg N y). unfold form in K. nra. }
+  assert (E : forall i, (i < N)%nat -> mv N (laplacian N A) x i = 0)
+    by (apply vanish; [apply zero_sum_laplacian, bal|exact Hx]).
+  assert (V : forall i, (i < N)%nat -> x i - mean N x = 0).
+  { apply vanish; [apply zero_sum_deviation, HN|]. intros i Hi.
+    rewrite mv_minus, E by exact Hi.
+    rewrite (mv_ext N _ (fun _ => mean N x) (fun j => mean N x * ones j)) by (intros; unfold ones; ring).
+    rewrite mv_scal, laplacian_ones by exact Hi. ring. }
+  intros i Hi. assert (V0 := V 0%nat ltac:(lia)). specialize (V i Hi). lra.
+Qed.
+
+(** Every ||Phi_k|| <= 1 gives ||P^k|| <= 2, by P^k = Phi_k - sum |f(l)| Phi_{k-l}. *)
+Lemma bounded_powers N A alpha mu : 0 < alpha < 1 ->
+  (forall k, bounded_on_1perp N (Phi alpha N (perron N A mu) k) 1) ->
+  decays_on_1perp N (mv N (perron N A mu)) 2 1.
+Proof.
+  intros Ha H k e He. rewrite pow1, Rmult_1_r. set (P := perron N A mu).
+  set (w := fun i => \sum_(l < k) (Rabs (fk alpha (S l)) * Phi alpha N P (k - S l) e i)).
+  rewrite (norm_ext N _ (fun i => Phi alpha N P k e i + (-1) * w i)).
+  2: { intros i Hi. rewrite (proj2 (phi_recursion N P alpha e k i Ha Hi)). unfold w. ring. }
+  eapply Rle_trans; [apply norm_triangle|]. rewrite norm_scal, (Rabs_left (-1)) by lra.
+  assert (B := H k e He). fold P in B.
+  assert (Wn : norm N w <= norm N e).
+  { unfold w. eapply Rle_trans; [apply norm_combination|].
+    apply Rle_trans with (\sum_(l < k) (Rabs (fk alpha (S l)) * norm N e)).
+    - apply sum_le. intros l _. rewrite (Rabs_right (Rabs _)) by (apply Rle_ge, Rabs_pos).
+      apply Rmult_le_compat_l; [apply Rabs_pos|]. assert (Q := H (k - S l)%nat e He). rewrite Rmult_1_l in Q. exact Q.
+    - rewrite sum_scal_r, (proj1 (telescoping alpha Ha)). assert (C := ck_pos alpha Ha k).
+      assert (N0 := norm_nonneg N e). nra. }
+  lra.
+Qed.
+
+Theorem eqL3_needs_spectrum : eqL3_needs_spectrum_statement.
+Proof.
+  intros N A alpha gamma h t HN H1 D HB Ht. set (mu := mu_of alpha gamma h) in *.
+  assert (bal : balanced N A) by apply H1.
+  assert (B := bounded_powers N A alpha mu (proj1 D) (proj1 (eqL3_characterised N A alpha gamma h HN H1 D) HB)).
+  apply stability_limit; [apply Ht|]. split.
+  - intros x Hx. apply (simple_zero N A x ltac:(lia) H1 Hx).
+  - intros p q x y Hxy Ex Ey Hne.
+    assert (PQ : 0 < p ^ 2 + q ^ 2).
+    { assert (Q1 := pow2_ge_0 p). assert (Q2 := pow2_ge_0 q).
+      destruct (Req_dec (p ^ 2 + q ^ 2) 0) as [Z|Z]; [|lra]. exfalso. apply Hne. split; nra. }
+    assert (M : (1 - mu * p) ^ 2 + (- (mu * q)) ^ 2 <= 1 ^ 2).
+    { apply (eigenvalues_from_decay N A mu 2 1 (1 - mu * p) (- (mu * q)) x y bal); try lra.
+      - exact B.
+      - intros i Hi. rewrite perron_entry, Ex by exact Hi. ring.
+      - intros i Hi. rewrite perron_entry, Ey by exact Hi. ring.
+      - intros [E1 E2]. apply Hne. split; apply Rmult_eq_reg_l with mu; lra. }
+    assert (T : mu * (p ^ 2 + q ^ 2) <= 2 * p).
+    { apply Rmult_le_reg_l with mu; [lra|]. lra. }
+    eapply Rlt_le_trans; [|exact T]. apply Rmult_lt_compat_r; lra.
 Qed.
