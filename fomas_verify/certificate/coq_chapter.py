@@ -23,7 +23,7 @@ BALANCED = "(proj2 (proj2 graph_assumption))"
 
 @dataclass(frozen=True)
 class Step:
-    """A lemma; where it is the conclusion on a claim, that claim."""
+    """A lemma; where it is the conclusion on a claim, that claim. Without a statement the proof is a definition."""
 
     name: str
     statement: str
@@ -34,6 +34,8 @@ class Step:
     @property
     def lemma(self) -> str:
         """Its text."""
+        if not self.statement:
+            return self.proof
         return f"Lemma {self.name} : {self.statement}.\nProof.\n  {self.proof}\nQed."
 
 

@@ -22,6 +22,7 @@ from fomas_verify.certificate.coq_contraction import beta_contraction, repaired
 from fomas_verify.certificate.coq_enclosures import Enclosures, quotient, table
 from fomas_verify.certificate.coq_factor import Table, factor, identity, stein
 from fomas_verify.certificate.coq_figures import Figures
+from fomas_verify.certificate.coq_samples import norm_bound_by_samples, norm_bound_exceeded
 from fomas_verify.certificate.coq_stability import falls_with_it, norm_bound_outside, spectrum
 from fomas_verify.claims.verdict import Decision, Verdict
 from fomas_verify.enclosure.interval import round_down
@@ -239,5 +240,7 @@ BUILDERS: tuple[Callable[[Chapter], list[Step]], ...] = (
     falls_with_it,
     norm_bound_outside,
     _control_norm,
+    norm_bound_by_samples,
+    norm_bound_exceeded,
     _trajectory_norm,
 )
