@@ -17,6 +17,7 @@ From Fomas Require Import Results.Equivalence.
 From Fomas Require Import Results.Regions.
 From Fomas Require Import Results.Coordinates.
 From Fomas Require Import Results.Stability.
+From Fomas Require Import Results.Spectrum.
 From Fomas Require Import Results.Refutation.
 From Fomas Require Import Results.Step.
 From Fomas Require Import Instances.Gamma19.
@@ -26,6 +27,7 @@ From Fomas Require Import Instances.PairGraph.
 From Fomas Require Import Instances.Examples.
 From Fomas Require Import Instances.MoreExamples.
 From Fomas Require Import Instances.TestExamples.
+From Fomas Require Import Instances.SpectrumExamples.
 
 Goal True. idtac "==" "lemma2". Abort.
 Print Assumptions lemma2.
@@ -165,8 +167,18 @@ Goal True. idtac "==" "persistence_test". Abort.
 Print Assumptions persistence_test.
 Goal True. idtac "==" "trace_test". Abort.
 Print Assumptions trace_test.
+Goal True. idtac "==" "eigenvalues_decide". Abort.
+Print Assumptions eigenvalues_decide.
+Goal True. idtac "==" "stability_limit". Abort.
+Print Assumptions stability_limit.
+Goal True. idtac "==" "claims_are_one". Abort.
+Print Assumptions claims_are_one.
+Goal True. idtac "==" "eqL3_needs_spectrum". Abort.
+Print Assumptions eqL3_needs_spectrum.
 Goal True. idtac "==" "step_decided". Abort.
 Print Assumptions step_decided.
+Goal True. idtac "==" "symmetric_step". Abort.
+Print Assumptions symmetric_step.
 Goal True. idtac "==" "step_fails". Abort.
 Print Assumptions step_fails.
 Goal True. idtac "==" "region_as_stated". Abort.
@@ -245,3 +257,7 @@ Goal True. idtac "==" "persistence_test_needs_nonzero". Abort.
 Print Assumptions persistence_test_needs_nonzero.
 Goal True. idtac "==" "trace_test_inhabited". Abort.
 Print Assumptions trace_test_inhabited.
+Goal True. idtac "==" "spectrum_inhabited". Abort.
+Print Assumptions spectrum_inhabited.
+Goal True. idtac "==" "spectrum_needs_balance". Abort.
+Print Assumptions spectrum_needs_balance.

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from fomas_verify.certificate.coq_enclosures import Enclosures, quotient, table
-from fomas_verify.certificate.coq_factor import Factor
+from fomas_verify.certificate.coq_factor import Factor, Squares
 from fomas_verify.certificate.coq_figures import Figures
 from fomas_verify.claims.verdict import Decision, Verdict
 from fomas_verify.enclosure.interval import Interval
@@ -23,7 +23,7 @@ BALANCED = "(proj2 (proj2 graph_assumption))"
 
 @dataclass(frozen=True)
 class Step:
-    """A lemma; where it is the conclusion on a claim, that claim."""
+    """A lemma; where it is the conclusion on a claim, that claim. Without a statement the proof is a definition."""
 
     name: str
     statement: str
@@ -34,6 +34,8 @@ class Step:
     @property
     def lemma(self) -> str:
         """Its text."""
+        if not self.statement:
+            return self.proof
         return f"Lemma {self.name} : {self.statement}.\nProof.\n  {self.proof}\nQed."
 
 
@@ -104,3 +106,8 @@ def vector(e: list[int]) -> str:
 def factor_text(shown: Factor) -> str:
     """Weight, factor, scale and bound of the residual."""
     return f"{shown.weight}\n    {table(shown.rows)}\n    {shown.scale} {shown.eps}"
+
+
+def squares_text(shown: Squares) -> str:
+    """Rows, weights and scale."""
+    return f"{table(shown.rows)}\n    {vector(shown.weights)} {shown.scale}"

@@ -1,13 +1,15 @@
 """Integer matrices that a Coq file checks: a nonnegative form with its factor and residual.
 
 Notation: ``K M - eps I = F F^T + E`` with E symmetric and norm_inf(E) <= eps shows ``M >= 0``. Source:
-``residual_factor`` and proofs/Design/Integers.v; the tables are those of proofs/Design, entry by entry.
+``residual_factor`` and proofs/Design/Integers.v; the tables are those of proofs/Design, entry by entry. A form that is
+singular is shown exactly, as a sum of squares (proofs/Design/Spectrum.v).
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import isqrt
+from fractions import Fraction
+from math import isqrt, lcm
 
 Table = list[list[int]]
 MOST_BITS = 1024
@@ -22,6 +24,15 @@ class Factor:
     rows: Table
     scale: int
     eps: int
+
+
+@dataclass(frozen=True)
+class Squares:
+    """``K M = F^T diag(w) F``, exactly: the rows of F, the weights w >= 0 and the scale K > 0."""
+
+    rows: Table
+    weights: list[int]
+    scale: int
 
 
 def stein(q: Table, b: Table, a: int, times: int, shift: int) -> Table:
@@ -43,13 +54,15 @@ def identity(n: int) -> Table:
     return [[int(i == j) for j in range(n)] for i in range(n)]
 
 
-def factor(m: Table) -> Factor | None:
+def factor(m: Table, weight: int | None = None) -> Factor | None:
     """What shows that M is nonnegative on the vectors that sum to 0; None where no factor of so many bits does.
 
-    ``weight 1 1^T`` is added to M first: it vanishes there, and M has the null vector 1.
+    ``weight 1 1^T`` is added to M first: it vanishes there, and M has the null vector 1. With ``weight`` 0 M is
+    nonnegative on all vectors.
     """
     n = len(m)
-    weight = max(abs(x) for row in m for x in row) + 1
+    if weight is None:
+        weight = max(abs(x) for row in m for x in row) + 1
     lifted = [[x + weight for x in row] for row in m]
     largest = isqrt(max(lifted[i][i] for i in range(n))) + 1
     bits = 4
@@ -61,6 +74,26 @@ def factor(m: Table) -> Factor | None:
             return Factor(weight, rows, 1 << 2 * bits, eps)
         bits *= 2
     return None
+
+
+def squares(m: Table) -> Squares | None:
+    """M as a sum of squares, exactly; None where M is not nonnegative."""
+    n = len(m)
+    rest = [[Fraction(x) for x in row] for row in m]
+    rows, weights = [[0] * n for _ in range(n)], [Fraction(0)] * n
+    for k in range(n):
+        pivot, column = rest[k][k], list(rest[k])
+        if pivot < 0 or (pivot == 0 and any(column)):
+            return None
+        if pivot == 0:
+            continue
+        unit = lcm(*(x.denominator for x in column))
+        rows[k] = [int(x * unit) for x in column]
+        weights[k] = 1 / (pivot * unit * unit)
+        for i in range(k, n):
+            rest[i] = [x - column[i] * y / pivot for x, y in zip(rest[i], column, strict=True)]
+    scale = lcm(*(x.denominator for x in weights))
+    return Squares(rows, [int(x * scale) for x in weights], scale)
 
 
 def _cholesky(a: Table) -> Table | None:

@@ -16,7 +16,8 @@ from fomas_verify.certificate.coq_enclosures import Enclosures
 from fomas_verify.certificate.coq_factor import Factor, Table, factor, identity, stein
 from fomas_verify.enclosure.interval import round_down, round_up
 from fomas_verify.enclosure.linear import approx_eigenvector
-from fomas_verify.exact.matrix import to_rows
+from fomas_verify.exact.matrix import identity as one_matrix
+from fomas_verify.exact.matrix import kernel, scaled, to_rows
 from fomas_verify.spectrum.loop import Loop
 
 
@@ -55,6 +56,16 @@ class Figures:
             for i, row in enumerate(self.laplacian)
         ]
 
+    def step(self, t: Fraction) -> Table:
+        """``q d Pc`` at mu = t = p/q: P on the differences from the last agent."""
+        unit, last = t.denominator * self.denominator, self.laplacian[-1]
+        return [
+            [(unit if i == j else 0) - t.numerator * (x - y) for j, (x, y) in enumerate(zip(row, last, strict=True))][
+                :-1
+            ]
+            for i, row in enumerate(self.laplacian[:-1])
+        ]
+
     def direction(self, vector: Sequence[Fraction]) -> Direction:
         """The vector, which sums to 0, in integers."""
         scale = lcm(*(x.denominator for x in vector))
@@ -88,6 +99,19 @@ class Figures:
         if found.size == 0:
             return None
         return round_up(Fraction(found.turn, self.denominator * found.size), bits), found.e
+
+    @cached_property
+    def lambda2_exactly(self) -> tuple[Fraction, list[int]] | None:
+        """lambda2 and an eigenvector of it, where it is rational with a small denominator."""
+        bounds = self.loop.lambda2(256)
+        guess = bounds.lower.limit_denominator(self.denominator << 16)
+        if not bounds.lower <= guess <= bounds.upper or guess == 0:
+            return None
+        shifted = self.loop.symmetric_part - scaled(one_matrix(len(self.laplacian)), guess)
+        found = kernel(shifted)
+        if found.ncols() == 0:
+            return None
+        return guess, self.direction([row[0] for row in to_rows(found)]).e
 
     def stretched(self, found: Direction, factor_squared: Fraction) -> bool:
         """Whether P stretches e by more than a factor, at every mu of the enclosure."""

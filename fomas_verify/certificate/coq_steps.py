@@ -22,6 +22,8 @@ from fomas_verify.certificate.coq_contraction import beta_contraction, repaired
 from fomas_verify.certificate.coq_enclosures import Enclosures, quotient, table
 from fomas_verify.certificate.coq_factor import Table, factor, identity, stein
 from fomas_verify.certificate.coq_figures import Figures
+from fomas_verify.certificate.coq_samples import norm_bound_by_samples, norm_bound_exceeded
+from fomas_verify.certificate.coq_stability import falls_with_it, norm_bound_outside, spectrum
 from fomas_verify.claims.verdict import Decision, Verdict
 from fomas_verify.enclosure.interval import round_down
 from fomas_verify.exact.matrix import apply
@@ -193,9 +195,10 @@ def _control_norm(chapter: Chapter) -> list[Step]:
     if chapter.decided(claim, Verdict.PROVED) and "repaired" in chapter.known:
         use = f"refine (repaired_norm_bound agents graph alpha gamma h {BALANCED} range _)."
         return [about_loops(chapter, "norm_bound", statement, use, "repaired", claim)]
-    if not chapter.decided(claim, Verdict.REFUTED) or "graph_assumption" not in chapter.known:
+    witness = chapter.decisions[claim].witness
+    if "graph_assumption" not in chapter.known or "x0" not in witness or "no_norm_bound" in chapter.known:
         return []
-    moved = apply(chapter.loop.laplacian, chapter.decisions[claim].witness["x0"])
+    moved = apply(chapter.loop.laplacian, witness["x0"])
     direction = chapter.figures.direction(moved)
     r = round_down(1 - chapter.loop.threshold(2 * chapter.numbers.bits).upper, chapter.numbers.bits)
     if not chapter.figures.grown(direction, r):
@@ -233,6 +236,11 @@ BUILDERS: tuple[Callable[[Chapter], list[Step]], ...] = (
     repaired,
     _decay,
     _from_decay,
+    spectrum,
+    falls_with_it,
+    norm_bound_outside,
     _control_norm,
+    norm_bound_by_samples,
+    norm_bound_exceeded,
     _trajectory_norm,
 )

@@ -11,17 +11,17 @@ Hypothesis Hd : (0 < d)%Z.
 Let A := weighted W d.
 
 (** b^2 (|x|^2 - |P_t x|^2 (sq/sp)^2) >= 0: the factor sp/sq at t = tp/tq. *)
-Lemma contracts_sound tp tq sp sq w F K eps :
+Lemma contracts_form tp tq sp sq w :
   ((0 <? tq) && (0 <=? sp) && (0 <? sq))%Z = true ->
-  nonnegative N (stein N (identity N) (perron_table N W d tp tq)
-    (sp * sp * (tq * d * (tq * d))) (sq * sq) 0 w) F K eps = true ->
+  (forall x, 0 <= form N (real (stein N (identity N) (perron_table N W d tp tq)
+     (sp * sp * (tq * d * (tq * d))) (sq * sq) 0 w)) x) ->
   contracts N A (IZR tp / IZR tq) (IZR sp / IZR sq).
 Proof.
   intros H M. apply andb_prop in H. destruct H as [H Hs]. apply andb_prop in H. destruct H as [Ht Hp].
   apply Z.ltb_lt in Ht, Hs. apply Z.leb_le in Hp.
   assert (T := IZR_lt _ _ Ht). assert (S := IZR_lt _ _ Hs). assert (P := IZR_le _ _ Hp).
   assert (D := IZR_lt _ _ Hd). split; [apply Rle_mult_inv_pos; assumption|]. intros e He.
-  assert (B := nonnegative_sound _ _ _ _ _ M e).
+  assert (B := M e).
   rewrite form_stein, !real_identity in B by exact He.
   set (Pe := mv N (perron N A (IZR tp / IZR tq)) e).
   rewrite (dot_ext N (mv N (real _) e) _ (fun i => IZR (tq * d) * Pe i) (fun i => IZR (tq * d) * Pe i))
@@ -36,6 +36,30 @@ Proof.
   { repeat apply Rmult_lt_0_compat; assumption. }
   replace (td * td * (IZR sq * IZR sq) * ((IZR sp / IZR sq) ^ 2 * dot N e e))
     with (IZR sp * IZR sp * (td * td) * dot N e e) by (field; lra).
+  lra.
+Qed.
+
+Lemma contracts_sound tp tq sp sq w F K eps :
+  ((0 <? tq) && (0 <=? sp) && (0 <? sq))%Z = true ->
+  nonnegative N (stein N (identity N) (perron_table N W d tp tq)
+    (sp * sp * (tq * d * (tq * d))) (sq * sq) 0 w) F K eps = true ->
+  contracts N A (IZR tp / IZR tq) (IZR sp / IZR sq).
+Proof.
+  intros H M. apply (contracts_form tp tq sp sq w H), (nonnegative_sound _ _ _ _ _ M).
+Qed.
+
+(** Every eigenvalue of L_s on 1perp is at most p/q. *)
+Lemma form_upper p q w : (0 <? q)%Z = true ->
+  (forall x, 0 <= form N (real (stein N (symmetric_table N W) (identity N)
+     (- q) 0 (- (2 * d * p)) w)) x) ->
+  forall x, zero_sum N x -> form N (laplacian_sym N A) x <= IZR p / IZR q * dot N x x.
+Proof.
+  intros Hq M x Hx. apply Z.ltb_lt, IZR_lt in Hq. assert (D := IZR_lt _ _ Hd).
+  assert (B := M x). rewrite form_stein, form_symmetric_table with (d := d) in B by assumption.
+  fold A in B. rewrite !opp_IZR, !mult_IZR in B.
+  apply Rmult_le_reg_l with (2 * IZR d * IZR q); [nra|].
+  replace (2 * IZR d * IZR q * (IZR p / IZR q * dot N x x)) with (2 * IZR d * IZR p * dot N x x)
+    by (field; lra).
   lra.
 Qed.
 

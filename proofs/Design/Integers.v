@@ -87,16 +87,16 @@ Proof.
   - intros i _. f_equal. apply sum_ext. intros; ring.
 Qed.
 
-Lemma form_stein N Q B a b c w x : zero_sum N x ->
+Lemma form_stein_any N Q B a b c w x :
   form N (real (stein N Q B a b c w)) x
-  = IZR a * form N (real Q) x - IZR b * form N (real Q) (mv N (real B) x) - IZR c * dot N x x.
+  = IZR a * form N (real Q) x - IZR b * form N (real Q) (mv N (real B) x) - IZR c * dot N x x
+    + IZR w * sum_lt N x ^ 2.
 Proof.
-  intros Hx.
   set (BQB := fun i j => \sum_(k < N) (real B k i * \sum_(l < N) (real Q k l * real B l j))).
   rewrite (form_mat_ext N _ (fun i j =>
     1 * (IZR a * real Q i j + (- IZR b) * BQB i j)
     + 1 * ((- IZR c) * id_mat i j + IZR w * 1))).
-  - rewrite !form_linear, form_identity, form_all_ones, (Hx : sum_lt N x = 0).
+  - rewrite !form_linear, form_identity, form_all_ones.
     unfold BQB. rewrite form_congruence. ring.
   - intros i j Hi Hj.
     change (real (stein N Q B a b c w) i j) with (IZR (entry (stein N Q B a b c w) i j)).
@@ -108,6 +108,11 @@ Proof.
     + intros k Hk. rewrite mult_IZR, entry_table, zsum_real by assumption. unfold real. f_equal.
       apply sum_ext. intros l _. apply mult_IZR.
 Qed.
+
+Lemma form_stein N Q B a b c w x : zero_sum N x ->
+  form N (real (stein N Q B a b c w)) x
+  = IZR a * form N (real Q) x - IZR b * form N (real Q) (mv N (real B) x) - IZR c * dot N x x.
+Proof. intros Hx. rewrite form_stein_any, (Hx : sum_lt N x = 0). ring. Qed.
 
 Lemma real_identity N x : form N (real (identity N)) x = dot N x x.
 Proof.

@@ -3,19 +3,8 @@ From Coq Require Import Reals Arith Lia Lra Classical.
 From Coquelicot Require Import Coquelicot.
 From Fomas Require Import Model.Vectors Model.Graph Model.Loop Model.Coordinates Statements.
 From Fomas Require Import Facts.Sums Facts.Vectors Facts.Lambda2 Facts.Forms Facts.Loop Facts.Phi Facts.Trace.
-From Fomas Require Import Results.ClosedLoop Results.Consensus Results.Equivalence Results.Stability.
+From Fomas Require Import Results.ClosedLoop Results.Consensus Results.Equivalence Results.Stability Results.Spectrum.
 Open Scope R_scope.
-
-(** The unit vectors span R^n. *)
-Lemma vanishing_decay n M : (forall y i, (i < n)%nat -> is_lim_seq (fun k => iter k (mv n M) y i) 0) ->
-  powers_decay n (mv n M).
-Proof.
-  intros V.
-  destruct (geometric_decay n M (fun _ => True) n id_mat) as [C [rho [HC [Hr Hd]]]]; auto.
-  - intros x _ i Hi. rewrite <- (id_mat_sum n i x Hi) at 1. apply sum_ext. intros j _.
-    unfold id_mat. rewrite Nat.eqb_sym. ring.
-  - exists C, rho. auto.
-Qed.
 
 Lemma no_decay_disagreement n A t mu : (1 <= n)%nat -> 0 < t <= mu ->
   ~ powers_decay n (mv n (differences_step n A t)) -> disagreement n A mu.
@@ -52,6 +41,12 @@ Proof.
   apply is_lim_seq_minus'; apply L; lia.
 Qed.
 
+Lemma no_decay_spectrum n A t mu : 0 < t <= mu ->
+  ~ powers_decay n (mv n (differences_step n A t)) -> ~ perron_spectrum (S n) A mu.
+Proof.
+  intros Ht ND H. apply ND, (smaller_step_decay n A mu t Ht), spectrum_decay, H.
+Qed.
+
 (** * Y >= 0, Y not 0 and M^T Y M - Y >= 0 *)
 
 Lemma persistent_form n Y M : symmetric n Y -> positive_semidefinite n Y ->
@@ -85,9 +80,12 @@ Qed.
 
 Theorem persistence_test : persistence_test_statement.
 Proof.
-  intros n A Y t mu sym HY Hne HS Ht. apply (no_decay_disagreement n A t mu); [|exact Ht|].
-  - destruct Hne as [i [j [Hi _]]]. lia.
-  - apply (persistent_form n Y); assumption.
+  intros n A Y t mu sym HY Hne HS Ht.
+  assert (ND : ~ powers_decay n (mv n (differences_step n A t)))
+    by (apply (persistent_form n Y); assumption).
+  split; [exact (no_decay_spectrum n A t mu Ht ND)|].
+  apply (no_decay_disagreement n A t mu); [|exact Ht|exact ND].
+  destruct Hne as [i [j [Hi _]]]. lia.
 Qed.
 
 (** * A trace beyond the dimension *)
@@ -114,7 +112,10 @@ Qed.
 
 Theorem trace_test : trace_test_statement.
 Proof.
-  intros n A t mu m H Ht. apply (no_decay_disagreement n A t mu); [|exact Ht|].
-  - destruct n as [|n]; [|lia]. simpl in H. rewrite Rabs_R0 in H. lra.
-  - intros D. assert (B := decay_trace n _ m D). lra.
+  intros n A t mu m H Ht.
+  assert (ND : ~ powers_decay n (mv n (differences_step n A t)))
+    by (intros D; assert (B := decay_trace n _ m D); lra).
+  split; [exact (no_decay_spectrum n A t mu Ht ND)|].
+  apply (no_decay_disagreement n A t mu); [|exact Ht|exact ND].
+  destruct n as [|n]; [|lia]. simpl in H. rewrite Rabs_R0 in H. lra.
 Qed.

@@ -32,6 +32,70 @@ Proof.
     assert (0 <= mu * step_bracket N A mu l e) by (apply Rmult_le_pos; [lra|apply H, He]). lra.
 Qed.
 
+(** With Q = L - lambda2 and y = Q e the bracket is 2 beta e.y - mu |y|^2; Q(e - s y) >= 0 for
+    s = mu / (2 beta) bounds |y|^2. *)
+Theorem symmetric_step : symmetric_step_statement.
+Proof.
+  intros N A mu l r HN Hmu sym Hl Hr H1 H2. apply step_decided; [exact HN|exact Hmu|].
+  split; [lra|]. intros e He. set (L := laplacian N A).
+  assert (bal : balanced N A) by (intros i Hi; apply sum_ext; intros j Hj; apply sym; assumption).
+  assert (SL : forall i j, (i < N)%nat -> (j < N)%nat -> L i j = L j i).
+  { intros i j Hi Hj. unfold L, laplacian. rewrite (sym i j Hi Hj), (Nat.eqb_sym j i).
+    destruct (Nat.eqb_spec i j) as [->|]; reflexivity. }
+  set (y := fun i => mv N L e i - l * e i).
+  assert (Ly : forall i, (i < N)%nat -> mv N L e i = y i + l * e i) by (intros; unfold y; ring).
+  assert (Hy : zero_sum N y).
+  { unfold zero_sum, y. rewrite sum_minus, sum_scal. change (\sum_(i < N) e i) with (sum_lt N e).
+    rewrite He. assert (Z := zero_sum_laplacian N A bal e). unfold zero_sum in Z.
+    change (\sum_(i < N) mv N L e i) with (sum_lt N (mv N L e)). unfold L. rewrite Z. ring. }
+  set (a := dot N e y). set (b := dot N y y). assert (B0 : 0 <= b) by apply dot_nonneg.
+  assert (Fe : form N L e = a + l * dot N e e).
+  { unfold form. rewrite (dot_ext N e _ e (fun i => y i + l * e i)), dot_plus_r, dot_scal_r; auto. }
+  assert (Fy : form N L y <= r * b) by (unfold L; rewrite <- form_sym; apply Hr, Hy).
+  assert (cross : dot N e (mv N L y) = b + l * a).
+  { rewrite (dot_mv_sym N L e y SL), (dot_ext N y _ y (fun i => y i + l * e i)), dot_plus_r, dot_scal_r
+      by auto. unfold a, b. rewrite (dot_comm N y e). ring. }
+  assert (A0 : 0 <= a).
+  { assert (Q := proj1 Hl e He). rewrite form_sym in Q. fold L in Q. lra. }
+  assert (key : forall s, 0 <= a - 2 * s * b + s ^ 2 * (r - l) * b).
+  { intros s. assert (Hz : zero_sum N (fun i => e i + (- s) * y i))
+      by (apply zero_sum_plus; [exact He|apply zero_sum_scal, Hy]).
+    assert (Q := proj1 Hl _ Hz). rewrite form_sym in Q. fold L in Q.
+    rewrite (form_plus N L e (fun i => - s * y i) SL), form_scal in Q.
+    rewrite (dot_ext N e (mv N L (fun i => - s * y i)) e (fun i => - s * mv N L y i)) in Q
+      by (auto; intros; apply mv_scal).
+    rewrite dot_plus_l, !dot_plus_r, !dot_scal_l, !dot_scal_r, cross, Fe, (dot_comm N y e) in Q.
+    fold a b in Q. assert (S2 : s ^ 2 * form N L y <= s ^ 2 * (r * b))
+      by (apply Rmult_le_compat_l; [apply pow2_ge_0|exact Fy]).
+    replace ((- s) ^ 2) with (s ^ 2) in Q by ring. lra. }
+  assert (bracket : step_bracket N A mu l e = 2 * (1 - mu * l) * a - mu * b).
+  { unfold step_bracket. rewrite form_sym. fold L. rewrite Fe.
+    rewrite (dot_ext N _ _ _ _ Ly Ly), dot_plus_l, !dot_plus_r, !dot_scal_l, !dot_scal_r.
+    rewrite (dot_comm N y e). fold a b. ring. }
+  rewrite bracket. set (c := 1 - mu * l) in *.
+  assert (R : mu * (r - l) <= 2 * c) by (unfold c; lra).
+  destruct (Rle_lt_or_eq_dec 0 c ltac:(unfold c; lra)) as [C|C].
+  - set (s := mu / (2 * c)). assert (s0 : 0 < s) by (apply Rdiv_lt_0_compat; lra).
+    assert (K := key s). assert (E : s * (r - l) <= 1).
+    { apply Rmult_le_reg_l with (2 * c); [lra|]. unfold s.
+      replace (2 * c * (mu / (2 * c) * (r - l))) with (mu * (r - l)) by (field; lra). lra. }
+    assert (s * (s * (r - l)) * b <= s * 1 * b).
+    { apply Rmult_le_compat_r; [exact B0|]. apply Rmult_le_compat_l; lra. }
+    assert (F : s * b <= a) by lra.
+    apply Rmult_le_compat_l with (r := 2 * c) in F; [|lra].
+    replace (2 * c * (s * b)) with (mu * b) in F by (unfold s; field; lra). lra.
+  - rewrite <- C in *. assert (D : (r - l) * b <= 0).
+    { assert (r - l <= 0); [|nra]. apply Rmult_le_reg_l with mu; [exact Hmu|]. lra. }
+    assert (K := key ((a + 1) / (b + 1))). set (s := (a + 1) / (b + 1)) in *.
+    assert (Z : b = 0); [|rewrite Z; lra].
+    destruct (Req_dec b 0) as [Z|Z]; [exact Z|]. exfalso.
+    assert (P := pow2_ge_0 s). assert (s ^ 2 * (r - l) * b <= 0) by nra.
+    assert (K2 := key ((a + 1) / b)).
+    assert (P2 := pow2_ge_0 ((a + 1) / b)).
+    assert (((a + 1) / b) ^ 2 * (r - l) * b <= 0) by nra.
+    replace (2 * ((a + 1) / b) * b) with (2 * (a + 1)) in K2 by (field; lra). lra.
+Qed.
+
 Theorem step_fails : step_fails_statement.
 Proof.
   intros N A mu l v Hl Hmu Hv Ev [i [Hi Ne]] H. specialize (H v Hv).

@@ -1,7 +1,7 @@
 (** What the norm bound eqL3 needs: the peak of the controls, and (14). *)
 From Coq Require Import Reals Arith List.
 From Coquelicot Require Import Coquelicot.
-From Fomas Require Import Model.Vectors Model.Kernel Model.Gamma Model.Graph Model.Loop Model.Examples.
+From Fomas Require Import Model.Vectors Model.Kernel Model.Gamma Model.Graph Model.Loop Model.Examples Statements.Balanced.
 Open Scope R_scope.
 
 (** Repaired Theorem 1: sigma <= 2^alpha - 1 gives eqL3 for every initial state. *)
@@ -80,6 +80,12 @@ Definition eqL3_needs_eqT2_statement : Prop := forall N A alpha gamma h lambda2,
   let beta := 1 - mu_of alpha gamma h * lambda2 in
   beta <= Rpower 2 alpha - 1 /\
   (- sqrt (Rpower 3 alpha - Rpower 2 alpha) <= beta -> memory_inequality alpha beta).
+
+(** eqL3 implies perron-eigenvalues for every smaller gain: an eigenvalue of P outside the closed
+    unit disc refutes it. *)
+Definition eqL3_needs_spectrum_statement : Prop := forall N A alpha gamma h t,
+  (2 <= N)%nat -> assumption1 N A -> design alpha gamma h ->
+  control_norm_bound N A alpha gamma h -> 0 < t < mu_of alpha gamma h -> perron_spectrum N A t.
 
 (** Where beta < -sqrt(c_2), (14) is not necessary for eqL3: on two agents that hear each
     other, D = 1 and lambda2 = 2, eqL3 holds for every mu from 1/2 to 1, and (14) fails for

@@ -61,6 +61,14 @@ Definition step_decided_statement : Prop := forall N A mu lambda2, (2 <= N)%nat 
   (bounded_on_1perp N (mv N (perron N A mu)) (1 - mu * lambda2) <->
    0 <= 1 - mu * lambda2 /\ forall e, zero_sum N e -> 0 <= step_bracket N A mu lambda2 e).
 
+(** On a symmetric graph it holds where mu lambda2 <= 1 and mu (lambda2 + r) <= 2, r at least
+    every eigenvalue of L. *)
+Definition symmetric_step_statement : Prop := forall N A mu lambda2 r, (2 <= N)%nat -> 0 < mu ->
+  (forall i j, (i < N)%nat -> (j < N)%nat -> A i j = A j i) -> is_lambda2 N A lambda2 ->
+  (forall x, zero_sum N x -> form N (laplacian_sym N A) x <= r * dot N x x) ->
+  mu * lambda2 <= 1 -> mu * (lambda2 + r) <= 2 ->
+  bounded_on_1perp N (mv N (perron N A mu)) (1 - mu * lambda2).
+
 (** Where a Fiedler vector of L_s is no eigenvector of L, the step fails for every mu > 0:
     no choice of gain and period repairs it on that graph. *)
 Definition step_fails_statement : Prop := forall N A mu lambda2 v,

@@ -2,7 +2,7 @@
 From Coq Require Import Reals Arith List.
 From Coquelicot Require Import Coquelicot.
 From Fomas Require Import Model.Vectors Model.Kernel Model.Gamma Model.Graph Model.Loop.
-From Fomas Require Import Model.Coordinates Statements.Balanced.
+From Fomas Require Import Model.Coordinates Statements.Balanced Statements.Consensus.
 Open Scope R_scope.
 
 (** LDL^T with positive pivots: positive definite. [lower] is unit lower triangular. *)
@@ -173,6 +173,36 @@ Definition lyapunov_test_statement : Prop := forall n A Q t mu,
   (balanced (S n) A -> exists C rho, 0 <= C /\ 0 <= rho < 1 /\
      decays_on_1perp (S n) (mv (S n) (perron (S n) A mu)) C rho).
 
+(** perron-eigenvalues is decay of the differences, on any graph, so decay on 1perp on a balanced
+    one: no eigenvalue of modulus 1 or more is all that decay needs. *)
+Definition eigenvalues_decide_statement : Prop := forall n A mu,
+  (perron_spectrum (S n) A mu <->
+   exists C rho, 0 <= C /\ 0 <= rho < 1 /\ forall k y,
+     norm n (iter k (mv n (differences_step n A mu)) y) <= C * rho ^ k * norm n y) /\
+  (balanced (S n) A -> (perron_spectrum (S n) A mu <-> vanishes_on_1perp (S n) A mu)).
+
+(** perron-eigenvalues by the eigenvalues p + q i of L, on any graph: 0 is a simple one, and
+    mu |p + q i|^2 < 2 p for every other; so it holds for mu below the least 2 p / |p + q i|^2. *)
+Definition stability_limit_statement : Prop := forall N A mu, 0 < mu ->
+  let L := mv N (laplacian N A) in
+  (perron_spectrum N A mu <->
+   (forall x, (forall i, (i < N)%nat -> L (L x) i = 0) -> forall i, (i < N)%nat -> x i = x 0%nat) /\
+   (forall p q x y, 0 < dot N x x + dot N y y ->
+      (forall i, (i < N)%nat -> L x i = p * x i - q * y i) ->
+      (forall i, (i < N)%nat -> L y i = q * x i + p * y i) ->
+      ~ (p = 0 /\ q = 0) -> mu * (p ^ 2 + q ^ 2) < 2 * p)).
+
+(** Under Assumption 1 perron-eigenvalues, vanishing controls and average consensus are one claim. *)
+Definition claims_are_one_statement : Prop := forall N A alpha gamma h,
+  (2 <= N)%nat -> assumption1 N A -> design alpha gamma h ->
+  let mu := mu_of alpha gamma h in
+  (perron_spectrum N A mu <->
+   forall x0 x u, closed_loop N A alpha gamma h x0 x u ->
+   forall i, (i < N)%nat -> is_lim_seq (fun k => u k i) 0) /\
+  (perron_spectrum N A mu <->
+   forall x0 x u, closed_loop N A alpha gamma h x0 x u ->
+   forall i, (i < N)%nat -> is_lim (fun t => x t i) p_infty (mean N x0)).
+
 (** At this mu some two agents do not come to agree, from some x_0; under Assumption 1 also some
     controls do not vanish. *)
 Definition disagreement (n : nat) (A : mat) (mu : R) : Prop :=
@@ -182,14 +212,15 @@ Definition disagreement (n : nat) (A : mat) (mu : R) : Prop :=
   (assumption1 (S n) A -> exists x0 x u i, closed_loop (S n) A alpha gamma h x0 x u /\
      (i < S n)%nat /\ ~ is_lim_seq (fun k => u k i) 0).
 
-(** Y >= 0, Y not 0 and Pc(t)^T Y Pc(t) - Y >= 0 for one t <= mu refute agreement, on any graph. *)
+(** Y >= 0, Y not 0 and Pc(t)^T Y Pc(t) - Y >= 0 for one t <= mu refute perron-eigenvalues and
+    agreement, on any graph. *)
 Definition persistence_test_statement : Prop := forall n A Y t mu,
   symmetric n Y -> positive_semidefinite n Y ->
   (exists i j, (i < n)%nat /\ (j < n)%nat /\ Y i j <> 0) ->
   positive_semidefinite n (fun i j => - stein_form n Y (differences_step n A t) i j) ->
-  0 < t <= mu -> disagreement n A mu.
+  0 < t <= mu -> ~ perron_spectrum (S n) A mu /\ disagreement n A mu.
 
 (** So does abs trace(Pc(t)^m) > N - 1 for one t <= mu and one m. *)
 Definition trace_test_statement : Prop := forall n A t mu m,
   INR n < Rabs (\sum_(i < n) iter m (mv n (differences_step n A t)) (id_mat i) i) ->
-  0 < t <= mu -> disagreement n A mu.
+  0 < t <= mu -> ~ perron_spectrum (S n) A mu /\ disagreement n A mu.
