@@ -15,7 +15,7 @@ WIDTH, HEIGHT = 10.4 / 2.54, 6.4 / 2.54
 BELOW = 1.2 / 2.54
 """Room for a legend below the axes."""
 
-MOST_IN_LEGEND = 8
+MOST_IN_LEGEND = 10
 
 STYLE: Final[dict[str, Any]] = {
     "font.size": 8,
