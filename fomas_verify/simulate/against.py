@@ -1,8 +1,9 @@
 """A trajectory against what is certified of the design, and against the plant itself.
 
 For the paper's law tuned for the plant's alpha the certificate bounds every sample: limit (the mean, which the loop
-keeps), envelope, settling, control and overshoot. A trajectory of any law must be the one that its own inputs drive the plant along. Float arithmetic
-decides here, with a tolerance far above its own error, so this finds mistakes and proves nothing.
+keeps), envelope, settling, control and overshoot. A trajectory of any law must be the one that its own inputs drive the
+plant along. Float arithmetic decides here, with a tolerance far above its own error, so this finds mistakes and proves
+nothing.
 """
 
 from __future__ import annotations
