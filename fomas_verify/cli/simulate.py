@@ -113,9 +113,11 @@ def command(
     if alpha_controller not in (None, read.alpha):
         known = known.without_bounds("the controller is tuned for another order than the plant's")
     compared, beyond = _compared(plant, runs, known), None
-    if enclose or digits is not None:
-        further = enclosed if enclose else to_digits
-        beyond = further(read, laws, runs, alpha_controller, between=between, digits=digits or DIGITS)
+    if enclose:
+        beyond = enclosed(read, laws, runs, alpha_controller, between=between, digits=digits or DIGITS,
+                          table=csv_file is not None)  # fmt: skip
+    elif digits is not None:
+        beyond = to_digits(read, laws, runs, alpha_controller, between=between, digits=digits)
     _write(runs, csv_file, parquet, beyond, {} if plot is None else _figures(plant, runs, known, plot, file_format))
     for line in (*_lines(read, runs, known, memory), compared, *(beyond.lines if beyond else ())):
         click.echo(line)

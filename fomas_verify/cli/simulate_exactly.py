@@ -75,8 +75,9 @@ def enclosed(
     *,
     between: int,
     digits: int,
+    table: bool = True,
 ) -> Beyond:
-    """By ball arithmetic."""
+    """By ball arithmetic; the table only where it is wanted."""
     from numpy import array
 
     from fomas_verify.enclosure.digits import rounded_up
@@ -86,8 +87,11 @@ def enclosed(
 
     tubes, lines = [], []
     for law, run in zip(laws, runs, strict=True):
-        tube = enclose(design, law, run.last, alpha_controller=tuned, between=between, digits=digits)
+        with progress_bar(f"{law.name}, enclosed digits", digits, shown=run.last >= LONG_SAMPLES) as progress:
+            tube = enclose(
+                design, law, run.last, alpha_controller=tuned, between=between, digits=digits, progress=progress
+            )
         check_same(run, array([[[float(x.mid) for x in xs] for xs in row] for row in tube.states]), "the enclosure")
         lines.append(f"{law.name}: each state and input enclosed within {rounded_up(tube.widest, 2)}")
         tubes.append(tube)
-    return Beyond(tube_csv_bytes(tubes, digits), tuple(lines))
+    return Beyond(tube_csv_bytes(tubes, digits) if table else b"", tuple(lines))

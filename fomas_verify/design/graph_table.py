@@ -13,7 +13,7 @@ from fomas_verify.design.errors import DesignError
 from fomas_verify.design.fields import Place, choice, count, number, one_of, positive, sequence, shown, table
 from fomas_verify.network import FAMILIES, SHAPED_FAMILIES, Digraph, Edge, GraphError, digraph, family
 
-MAX_AGENTS: Final = 2000
+MAX_AGENTS: Final = 10_000
 MAX_DENOMINATOR_BITS: Final = 256
 
 _FORMS = ("adjacency", "edges", "family")
@@ -29,7 +29,7 @@ def read_graph(value: object, place: Place) -> Digraph:
     Raises
     ------
     DesignError
-        It does not describe a digraph on 2 to 2000 agents whose weights are positive and have a common denominator of
+        It does not describe a digraph on 2 to 10,000 agents whose weights are positive and have a common denominator of
         at most 256 bits; or it uses what is not supported yet.
     """
     graph = table(value, place, (*_FORMS, "agents", "shape", *_UNSUPPORTED))

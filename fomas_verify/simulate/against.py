@@ -1,8 +1,9 @@
 """A trajectory against what is certified of the design, and against the plant itself.
 
-For the paper's law tuned for the plant's alpha the certificate bounds every sample: envelope, limit, settling, control
-and overshoot. A trajectory of any law must be the one that its own inputs drive the plant along. Float arithmetic
-decides here, with a tolerance far above its own error, so this finds mistakes and proves nothing.
+For the paper's law tuned for the plant's alpha the certificate bounds every sample: limit (the mean, which the loop
+keeps), envelope, settling, control and overshoot. A trajectory of any law must be the one that its own inputs drive the
+plant along. Float arithmetic decides here, with a tolerance far above its own error, so this finds mistakes and proves
+nothing.
 """
 
 from __future__ import annotations
@@ -103,6 +104,8 @@ def check_same(run: Trajectory, states: Array, what: str) -> None:
 def _comparisons(run: Trajectory, bounds: Bounds) -> Iterator[Comparison]:
     off, control = distance(run.states, bounds.limit_floats), run.input_norms
     samples, slack = np.arange(run.last + 1), TOLERANCE * float(np.max(np.abs(run.states)))
+    mean = np.max(np.abs(run.states.mean(axis=0) - bounds.limit_floats[:, None]), axis=0)
+    yield _compare("mean(x_k) - limit", mean, np.zeros_like(mean), slack)
     if bounds.kappa is not None and bounds.rho is not None:
         envelope = off[0] * np.minimum(float(bounds.kappa) * float(bounds.rho) ** samples, 1e300)
         yield _compare("norm(x_k - limit)", off, envelope, slack)

@@ -12,11 +12,17 @@ if TYPE_CHECKING:
 
 FORMATS: Final = ("pdf", "png", "svg")
 WIDTH, HEIGHT = 10.4 / 2.54, 6.4 / 2.54
-MOST_IN_LEGEND = 8
+BELOW = 1.2 / 2.54
+"""Room for a legend below the axes."""
 
-_STYLE: Final[dict[str, Any]] = {
+MOST_IN_LEGEND = 10
+
+STYLE: Final[dict[str, Any]] = {
     "font.size": 8,
     "axes.titlesize": 8,
+    "legend.fontsize": 6.5,
+    "legend.handlelength": 1.5,
+    "legend.handletextpad": 0.5,
     "axes.grid": True,
     "grid.linewidth": 0.3,
     "lines.linewidth": 0.9,
@@ -42,28 +48,46 @@ def draw(panel: Panel, file_format: str) -> bytes:
     """
     try:
         import matplotlib
-        from matplotlib.figure import Figure
     except ImportError as error:
         raise SimulationError(
             f"figures need {error.name}, which the extra `plot` brings: pip install 'fomas_verify[plot]'"
         ) from None
-    with matplotlib.rc_context(_STYLE):
-        figure = Figure(figsize=(WIDTH, HEIGHT), layout="constrained")
-        axes = figure.add_subplot()
-        for curve in panel.curves:
-            _draw_curve(axes, curve)
-        if panel.logarithmic and any(max(curve.y, default=0) > 0 for curve in panel.curves):
-            axes.set_xscale("log")
-            axes.set_yscale("log")
-        axes.set(title=panel.title, xlabel=panel.x_label, ylabel=panel.y_label)
-        if 1 < len(panel.curves) <= MOST_IN_LEGEND:
-            axes.legend(fontsize=6.5)
+    with matplotlib.rc_context(STYLE):
         stream = io.BytesIO()
-        figure.savefig(stream, format=file_format, metadata=_NO_DATE[file_format])
+        figure_of(panel).savefig(stream, format=file_format, metadata=_NO_DATE[file_format])
     return stream.getvalue()
+
+
+def figure_of(panel: Panel) -> Any:
+    """The figure as matplotlib's object, in matplotlib's present style."""
+    from matplotlib.figure import Figure
+
+    height = HEIGHT + (BELOW if panel.legend == "below" else 0)
+    figure = Figure(figsize=(WIDTH, height), layout="constrained")
+    axes = figure.add_subplot()
+    for curve in panel.curves:
+        _draw_curve(axes, curve)
+    if panel.logarithmic and any(max(curve.y, default=0) > 0 for curve in panel.curves):
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+    axes.set(title=panel.title, xlabel=panel.x_label, ylabel=panel.y_label)
+    if 1 < len(panel.curves) <= MOST_IN_LEGEND:
+        _add_legend(figure, axes, panel.legend)
+    return figure
+
+
+def _add_legend(figure: Any, axes: Any, place: str) -> None:
+    if place == "inside":
+        axes.legend()
+    elif place == "beside":
+        figure.legend(loc="outside right upper")
+    else:
+        figure.legend(
+            loc="outside lower center", ncols=len({line.get_color() for line in axes.lines}), columnspacing=1.0
+        )
 
 
 def _draw_curve(axes: Any, curve: Curve) -> None:
     look = _LOOKS[curve.style]
     color: dict[str, Any] = {} if curve.color is None else {"color": f"C{curve.color}"}
-    axes.plot(curve.x, curve.y, label=curve.label, **look, **color)
+    axes.plot(curve.x, curve.y, label=curve.label, **(look | color))

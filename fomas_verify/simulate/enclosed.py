@@ -21,6 +21,7 @@ from fomas_verify.enclosure.trajectory import (
     step_responses,
 )
 from fomas_verify.kernel.memory import one_step_weight
+from fomas_verify.simulate.convolution import Progress
 from fomas_verify.simulate.errors import NoEnclosureError
 from fomas_verify.simulate.laws import Law
 from fomas_verify.simulate.loop import solve
@@ -28,6 +29,7 @@ from fomas_verify.simulate.memory import Array
 from fomas_verify.simulate.plant import Plant, plant_of
 
 DIGITS = 40
+LOG10_2 = 0.301
 MOST_ROUNDS = 64
 
 MOST_WORK = 10_000_000
@@ -64,6 +66,7 @@ def enclose(
     alpha_controller: Fraction | None = None,
     between: int = 0,
     digits: int = DIGITS,
+    progress: Progress | None = None,
 ) -> Tube:
     """Enclose the trajectory of a linear law at the samples k = 0..K, and at M points between.
 
@@ -75,6 +78,8 @@ def enclose(
         Points inside each sampling interval.
     digits : int
         The states' error is brought below ``10^-digits`` of the largest entry of x_0.
+    progress : function, optional
+        Told the digits that are right.
 
     Returns
     -------
@@ -96,10 +101,9 @@ def enclose(
     loop = _linear_loop(design, law, samples, design.alpha if alpha_controller is None else alpha_controller, bits)
     kernel = np.array([float(x) for x in loop.kernel])
     enclosure = Enclosure(loop, bits)
-    target = max(abs(x) for row in loop.x0 for x in row) / 10**digits
-    if not (
-        enclosure.bound_inverse(_impulse(plant, kernel, samples + 1)) and _refined(enclosure, plant, kernel, target)
-    ):
+    largest = max(abs(x) for row in loop.x0 for x in row)
+    inverted = enclosure.bound_inverse(_impulse(plant, kernel, samples + 1))
+    if not (inverted and _refined(enclosure, plant, kernel, largest, digits, progress)):
         raise NoEnclosureError(
             f"{design.source}: {law.name}: no enclosure found over {samples} samples: the loop grows"
         )
@@ -109,8 +113,11 @@ def enclose(
     return Tube(law.name, design.h or Fraction(0), enclosure.states(), enclosure.inputs(), cut)
 
 
-def _refined(enclosure: Enclosure, plant: Plant, kernel: Array, target: Fraction) -> bool:
-    """Correct until the error is below the target; False where it stops shrinking before."""
+def _refined(
+    enclosure: Enclosure, plant: Plant, kernel: Array, largest: Fraction, digits: int, progress: Progress | None
+) -> bool:
+    """Correct until the error is below so many digits of the largest; False where it stops shrinking before."""
+    target = largest / 10**digits
     for _ in range(MOST_ROUNDS):
         before = enclosure.radius
         correction = np.array(enclosure.defects())
@@ -119,6 +126,8 @@ def _refined(enclosure: Enclosure, plant: Plant, kernel: Array, target: Fraction
             return False
         enclosure.correct(correction.tolist())
         after = enclosure.radius
+        if progress is not None and after:
+            progress(min(digits, int(LOG10_2 * int(largest / after).bit_length())))
         if before is None or after is None or after <= target:
             return after is not None
         if after > before / 2:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
@@ -41,7 +42,7 @@ class Curve:
 
 @dataclass(frozen=True)
 class Panel:
-    """One figure; its name is that of its file."""
+    """One figure; its name is that of its file. ``legend``: beside the axes, below them, or inside where room is."""
 
     name: str
     title: str
@@ -49,6 +50,7 @@ class Panel:
     y_label: str
     curves: tuple[Curve, ...]
     logarithmic: bool = False
+    legend: Literal["inside", "beside", "below"] = "inside"
 
 
 def panels(
@@ -114,7 +116,7 @@ def _states(run: Trajectory) -> Panel:
         label = f"$x_{{{agent + 1}}}$" if numbers == 1 else f"$x_{{{agent + 1},{number + 1}}}$"
         curves.append(Curve(label, times[chosen], states[agent, number, chosen]))
     title = f"States under the {run.controller} controller"
-    return Panel(f"states-{run.controller}", title, "$t$ [s]", "$x_i(t)$", tuple(curves))
+    return Panel(f"states-{run.controller}", title, "$t$ [s]", "$x_i(t)$", tuple(curves), legend="beside")
 
 
 def _energy(run: Trajectory) -> Panel:
@@ -131,7 +133,7 @@ def _memory_inequality(alpha: float, beta: float, last: int) -> Panel:
         Curve(r"$\beta^{k+1} + \sum_{l=1}^{k+1} |f(l)|$", k.astype(float), left, "points"),
         Curve("1", k.astype(float), np.ones(len(k)), "guide"),
     )
-    return Panel("memory-inequality", "Left side of inequality (14)", "$k$", "", curves)
+    return Panel("memory-inequality", "Left side of inequality (14)", "$k$", "left side", curves)
 
 
 def _errors(runs: Sequence[Trajectory], limit: Array) -> Panel:
@@ -149,18 +151,18 @@ def _between_samples(runs: Sequence[Trajectory], limit: Array, alpha: float, *, 
         floor = ROUNDING * float(np.max(np.abs(run.states[..., 0])))
         chosen = _thinned(run.last, logarithmic=True)
         at = run.mean_absolute_error(limit)[1:][chosen]
-        times, label = (chosen + 1) * run.h, f"{run.controller}, at the samples"
+        times, label = (chosen + 1) * run.h, f"{run.controller}, at samples"
         curves.append(Curve(label, times, above(at, floor), "points", color))
         if len(run.between):
             inside = mean_distance(run.between, limit).max(axis=0)[chosen]
-            label = f"{run.controller}, largest between them"
+            label = f"{run.controller}, between"
             curves.append(Curve(label, (chosen + 0.5) * run.h, above(inside, floor), color=color))
         power = {"proposed": 1 + alpha, "memoryless": alpha}.get(run.controller)
         if power is not None and guided and curves[-1].style == "line" and curves[-1].y[-1] < curves[-1].y[0]:
             name = r"$t^{-1-\alpha}$" if power > 1 else r"$t^{-\alpha}$"
-            curves.append(_guide(name, curves[-1], power))
+            curves.append(_guide(name, curves[-1], power, color))
     title = "Mean absolute error at the samples and between them"
-    return Panel("between-samples", title, "$t$ [s]", "$r(t)$", tuple(curves), logarithmic=True)
+    return Panel("between-samples", title, "$t$ [s]", "$r(t)$", tuple(curves), logarithmic=True, legend="below")
 
 
 def above(y: Array, floor: float) -> Array:
@@ -168,10 +170,10 @@ def above(y: Array, floor: float) -> Array:
     return np.where(y > floor, y, np.nan)
 
 
-def _guide(label: str, curve: Curve, power: float) -> Curve:
+def _guide(label: str, curve: Curve, power: float, color: int) -> Curve:
     """A line of the slope that theory predicts, twice above the curve at its end."""
-    shown = np.geomspace(max(curve.x[-1] / 8, curve.x[0]), curve.x[-1], 2)
-    return Curve(label, shown, 2 * curve.y[-1] * (shown / shown[-1]) ** -power, "guide")
+    shown = np.geomspace(max(curve.x[-1] / 4, curve.x[0]), curve.x[-1], 2)
+    return Curve(label, shown, 2 * curve.y[-1] * (shown / shown[-1]) ** -power, "guide", color)
 
 
 def _control(run: Trajectory, bounds: Bounds) -> Panel:

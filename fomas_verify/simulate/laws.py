@@ -20,7 +20,8 @@ from typing import TypeAlias
 
 import numpy as np
 
-from fomas_verify.simulate.memory import Array, approx_inverse_series, approx_memory_series, approx_step_response
+from fomas_verify.simulate.memory import Array, approx_memory_series, approx_step_response
+from fomas_verify.simulate.series import approx_inverse_series
 
 Control: TypeAlias = Callable[[int, Array, Array], Array]
 """A controller of a user's own: from k, the states x_0 .. x_k (time first: k+1, N, n) and the inputs u_0 .. u_{k-1}

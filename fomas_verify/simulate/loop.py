@@ -1,7 +1,8 @@
 """The closed loop at the samples, in binary floats.
 
 With ``u = -gamma (q * e)`` and ``g = c * q`` the plant gives ``x_{k+1} = x_0 - mu sum_j g_{k-j} e_j``: one past sum a
-sample, whatever the law. Where the paper's law is tuned for the plant's own alpha, g is 1 and ``e_k = P^k e_0``.
+sample, whatever the law, made block after block, or all at once by the loop's modes where that is accurate. Where the
+paper's law is tuned for the plant's own alpha, g is 1 and ``e_k = P^k e_0``.
 Approximate. Source: theory, section 1.
 """
 
@@ -15,7 +16,8 @@ import numpy as np
 from fomas_verify.simulate.convolution import BLOCK, Finish, Progress, approx_product, march
 from fomas_verify.simulate.errors import SimulationError
 from fomas_verify.simulate.laws import Control, Law
-from fomas_verify.simulate.memory import Array, approx_step_response
+from fomas_verify.simulate.memory import Array, approx_step_response, largest
+from fomas_verify.simulate.modes import approx_by_modes
 from fomas_verify.simulate.plant import DENSE_AGENTS, Plant
 from fomas_verify.simulate.trajectory import Trajectory
 
@@ -62,14 +64,24 @@ def simulate(
             states[..., 0] = plant.x0
             states[..., 1:] = plant.x0[:, :, None] - plant.mu * np.cumsum(errors[..., :-1], axis=-1)
         else:
-            kernel = approx_product(approx_step_response(plant.alpha, count), response)
-            states = np.repeat(plant.x0[:, :, None], count, axis=-1)
-            marched = solve(plant, kernel, states, progress)
-            _some(marched)
-            states = states[..., :marched]
-            errors = plant.error(states)
-    inputs = -plant.gamma * approx_product(response, errors)
+            kernel = approx_step_response(plant.alpha, count)
+            if law.memory != 0:
+                kernel = approx_product(kernel, response)
+            found = approx_by_modes(plant, kernel, progress)
+            if found is None or not largest(found[0]) < LARGEST:
+                found = _marched(plant, kernel, progress)
+            states, errors = found
+            marched = states.shape[-1]
+        inputs = errors if law.memory == 0 else approx_product(response, errors)
+        inputs *= -plant.gamma
     return Trajectory(law.name, plant.h, states, inputs, stopped=marched < count)
+
+
+def _marched(plant: Plant, kernel: Array, progress: Progress | None) -> tuple[Array, Array]:
+    states = np.repeat(plant.x0[:, :, None], len(kernel), axis=-1)
+    marched = solve(plant, kernel, states, progress)
+    _some(marched)
+    return states[..., :marched], plant.error(states[..., :marched])
 
 
 def _some(marched: int) -> None:

@@ -10,12 +10,10 @@ from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import fft
 
 Array: TypeAlias = NDArray[np.float64]
 
 _SERIES_FROM, _SERIES_TERMS = 10, 9
-_DIRECT_TERMS = 64
 
 
 def approx_step_response(alpha: float, count: int, share: float = 1.0) -> Array:
@@ -50,19 +48,6 @@ def approx_memory_series(alpha: float, count: int) -> Array:
     return found
 
 
-def approx_inverse_series(a: Array) -> Array:
-    """The coefficients of ``1 / sum a_n z^n`` to the same length, with a_0 = 1: Newton's iteration by padded FFT."""
-    count = len(a)
-    found = np.zeros(count)
-    found[0] = 1.0
-    known = min(count, _DIRECT_TERMS)
-    for n in range(1, known):
-        found[n] = -(a[1 : n + 1] @ found[n - 1 :: -1][:n])
-    while known < count:
-        wanted = min(2 * known, count)
-        # Cyclic of length 2 known: what wraps around falls on entries that are not read.
-        spectrum = fft.rfft(found[:known], 2 * known)
-        excess = fft.irfft(spectrum * fft.rfft(a[:wanted], 2 * known), 2 * known)[known:wanted]
-        found[known:wanted] = -fft.irfft(spectrum * fft.rfft(excess, 2 * known), 2 * known)[: wanted - known]
-        known = wanted
-    return found
+def largest(x: Array) -> float:
+    """``max abs x_i``, without a copy; NaN where one is."""
+    return max(float(x.max()), -float(x.min()))

@@ -69,7 +69,7 @@ def test_the_table(verify: Verify) -> None:
     assert "0.20473793" in run.stdout
     assert "0.012117836" in run.stdout
     assert len(rows) == 2
-    assert "bounded at every sample as certified: norm(x_k - limit), norm u_k by peak" in run.stdout
+    assert "bounded at every sample as certified: mean(x_k) - limit, norm(x_k - limit), norm u_k by peak" in run.stdout
 
 
 def test_the_csv_file(call: Verify, tmp_path: Path) -> None:
@@ -176,6 +176,23 @@ def test_no_common_limit(call: Verify, tmp_path: Path) -> None:
     run = call("simulate", design(tmp_path, x0=[1, 0, 3], graph=graph))
     assert run.returncode == 0, run.stderr
     assert "no common limit: no agent reaches every other" in run.stdout
+
+
+def test_ten_thousand_agents(call: Verify, tmp_path: Path) -> None:
+    """On a torus, from 1 in one column of agents and 0 elsewhere: every agent of a column sees what a cycle's would."""
+    x0 = [int(i % 100 == 0) for i in range(10_000)]
+    graph = {"family": "torus", "shape": [100, 100]}
+    path = design(tmp_path, alpha="9/10", gamma="1/5", h="1/2", x0=x0, graph=graph)
+    run = call("simulate", path, "--samples", 40, "--controller", "proposed, memoryless")
+    assert run.returncode == 0, run.stderr
+    alone = {"x0": [1] + 99 * [0], "graph": {"family": "cycle", "agents": 100}}
+    cycle = call("simulate", design(tmp_path, alpha="9/10", gamma="1/5", h="1/2", **alone), "--samples", 40)
+
+    def errors(text: str) -> list[str]:
+        return [line for line in text.splitlines() if "mean absolute error" in line]
+
+    assert errors(run.stdout) == errors(cycle.stdout)
+    assert len(errors(run.stdout)) == 2
 
 
 def test_an_unstable_design_is_stopped(call: Verify, tmp_path: Path) -> None:

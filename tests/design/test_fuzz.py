@@ -109,7 +109,7 @@ def test_a_graph_is_a_graph_or_is_refused(table: dict[str, object]) -> None:
     except DesignError as error:
         one_line(error)
     else:
-        assert 2 <= graph.agents <= 2000
+        assert 2 <= graph.agents <= 10_000
         assert list(graph.edges) == sorted({edge[:2]: edge for edge in graph.edges}.values())
 
 

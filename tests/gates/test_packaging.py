@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 LOCKS = ["base.txt", "dev.txt", "bench.txt"]
+PEERS = "peers.txt"
 
 
 def pins(lock: str) -> dict[str, list[str]]:
@@ -33,7 +34,7 @@ def project(checkout: Path) -> dict:
     return tomllib.loads((checkout / "pyproject.toml").read_text())
 
 
-@pytest.mark.parametrize("name", LOCKS)
+@pytest.mark.parametrize("name", [*LOCKS, PEERS])
 def test_every_entry_is_pinned_by_hash(checkout: Path, name: str) -> None:
     assert unpinned((checkout / "requirements" / name).read_text()) == []
 
@@ -56,6 +57,15 @@ def test_locks_cover_what_the_project_asks_for(checkout: Path, name: str, extras
         asked += meta["project"]["optional-dependencies"][extra]
     names = {re.split(r"[^\w-]", requirement, maxsplit=1)[0] for requirement in asked} - {"fomas_verify"}
     assert names - set(pins((checkout / "requirements" / name).read_text())) == set()
+
+
+def test_peers_are_locked_and_no_dependency_of_the_package(checkout: Path) -> None:
+    """They are installed for tests, apart from what a user installs."""
+    meta = project(checkout)
+    names = {re.split(r"[^\w-]", x, maxsplit=1)[0] for x in meta["dependency-groups"]["peers"]}
+    assert set(pins((checkout / "requirements" / PEERS).read_text())) == names
+    assert not any(names & set(pins((checkout / "requirements" / lock).read_text())) for lock in LOCKS)
+    assert not any(name in str(meta["project"]) for name in names)
 
 
 def test_locks_agree_on_versions(checkout: Path) -> None:

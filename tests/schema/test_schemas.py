@@ -40,7 +40,7 @@ UNSAYABLE_OF_DESIGNS = [
     r"edges\[\d+\]: expected each edge once",
     r"edges\[\d+\]\[[01]\]: expected an integer >= 1 and <= \d+",
     r"agents: expected \d+, as the shape says",
-    r"(agents|shape): .* agents, more than 2000, are not supported yet",
+    r"(agents|shape): .* agents, more than 10000, are not supported yet",
     # the value of a fraction in a string, and bits
     r"(alpha|settle_to)(\[[01]\])?: expected a number between 0 and 1, both excluded, got ('|\")",
     r"\[1\]: expected a number above ",
@@ -197,7 +197,26 @@ def test_a_malformed_certificate(path: Path) -> None:
 
 
 VALUES: list[Any] = [
-    *(None, True, 0, 1, 2, 3, -1, 201, 2001, 10**81, 2**300, [], {}, [[]], [1], ["1", "2"], ["1/2", "3/5"], [1, 2, 3]),
+    *(
+        None,
+        True,
+        0,
+        1,
+        2,
+        3,
+        -1,
+        201,
+        10_001,
+        10**81,
+        2**300,
+        [],
+        {},
+        [[]],
+        [1],
+        ["1", "2"],
+        ["1/2", "3/5"],
+        [1, 2, 3],
+    ),
     *(
         "",
         "x",

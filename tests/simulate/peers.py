@@ -21,6 +21,9 @@ def right_side(design: dict[str, Any], samples: int, memory: int | None) -> Righ
         laplacian[to - 1, source - 1] -= float(weight)
         laplacian[to - 1, to - 1] += float(weight)
     alpha, gamma, h = (float(Fraction(design[key])) for key in ("alpha", "gamma", "h"))
+    gain = -gamma * laplacian
+    if memory == 0:
+        return lambda t, x: gain @ x
     j = np.arange(1, samples + 1, dtype=float)
     f = (j + 1) ** alpha - 2 * j**alpha + (j - 1) ** alpha
     inputs = np.zeros((samples + 1, agents))
@@ -28,7 +31,7 @@ def right_side(design: dict[str, Any], samples: int, memory: int | None) -> Righ
     def u(t: float, x: np.ndarray) -> np.ndarray:
         k = round(t / h)
         kept = k if memory is None else min(k, memory)
-        inputs[k] = -gamma * (laplacian @ x)
+        inputs[k] = gain @ x
         if kept:
             inputs[k] -= f[:kept] @ inputs[k - kept : k][::-1]
         return inputs[k]

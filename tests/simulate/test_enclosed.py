@@ -53,7 +53,10 @@ def test_the_tube_contains_a_sixty_digit_trajectory(seed: int) -> None:
 @pytest.mark.parametrize("law", LAWS, ids=lambda law: law.name)
 def test_narrow_enough(law: Law, paper: Design) -> None:
     """Narrower than asked, 1e-20 at K = 200; the agents of the paper's law end at 3.2."""
-    tube = enclose(paper, law, 200)
+    told: list[int] = []
+    tube = enclose(paper, law, 200, progress=told.append)
+    assert told == sorted(told)
+    assert 0 < told[0] < told[-1] == 40
     assert tube.widest < Fraction(1, 10**20)
     assert all(len(row[0]) == 201 for row in tube.states + tube.inputs)
     if law is PROPOSED:

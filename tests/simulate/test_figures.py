@@ -7,8 +7,8 @@ import pytest
 
 from fomas_verify.cli.certified import Certified, certified_of
 from fomas_verify.design import Design
-from fomas_verify.simulate import MEMORYLESS, PROPOSED, Plant, Trajectory, simulate, with_between
-from fomas_verify.simulate.drawing import draw
+from fomas_verify.simulate import MEMORYLESS, PROPOSED, Law, Plant, Trajectory, simulate, truncated, with_between
+from fomas_verify.simulate.drawing import STYLE, draw, figure_of
 from fomas_verify.simulate.errors import SimulationError
 from fomas_verify.simulate.figures import MOST_CURVES, MOST_POINTS, Panel, panels
 
@@ -107,6 +107,27 @@ def test_files(made: dict[str, Panel], file_format: str, start: bytes) -> None:
     data = draw(made["between-samples"], file_format)
     assert data.startswith(start)
     assert data == draw(made["between-samples"], file_format)
+
+
+@drawn
+@pytest.mark.parametrize("laws", [(PROPOSED, MEMORYLESS), (PROPOSED, MEMORYLESS, truncated(9))], ids=len)
+def test_nothing_is_cut_off_or_hidden(plant: Plant, known: Certified, laws: tuple[Law, ...]) -> None:
+    """Titles and legends lie inside of the figure, and a legend beside or below the axes covers none of them."""
+    import matplotlib
+
+    runs = [with_between(plant, simulate(plant, law, 60), 4) for law in laws]
+    for panel in panels(runs, 0.9, LIMIT, known.beta, known.bounds):
+        with matplotlib.rc_context(STYLE):
+            figure = figure_of(panel)
+            figure.draw_without_rendering()
+        axes, whole = figure.axes[0], figure.bbox
+        legends = [*figure.legends, *filter(None, [axes.get_legend()])]
+        assert len(legends) == (len(panel.curves) > 1)
+        for part in [axes.title, axes.xaxis.label, axes.yaxis.label, *legends]:
+            box = part.get_window_extent()
+            assert whole.x0 <= box.x0 < box.x1 <= whole.x1, panel.name
+            assert whole.y0 <= box.y0 < box.y1 <= whole.y1, panel.name
+        assert not any(axes.get_window_extent().overlaps(x.get_window_extent()) for x in figure.legends)
 
 
 @drawn

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from mpmath import mp
 
-from fomas_verify.simulate.memory import approx_inverse_series, approx_memory_series, approx_step_response
+from fomas_verify.simulate.memory import approx_memory_series, approx_step_response
+from fomas_verify.simulate.series import approx_inverse_series
 
 ORDERS = ["1/100", "3/10", "1/2", "9/10", "99/100"]
 FAR = [*range(30), 100, 5_000, 99_999]

@@ -1,4 +1,4 @@
-"""Twenty random designs against pycaputo, and against fodeint where it is installed: to 1e-10."""
+"""Twenty random designs against pycaputo and fodeint, to 1e-10."""
 
 import importlib.util
 from collections.abc import Callable
@@ -24,7 +24,7 @@ peers = pytest.mark.parametrize(
             by_fodeint,
             marks=pytest.mark.skipif(
                 importlib.util.find_spec("fodeint") is None,
-                reason="fodeint is not locked: only its source is released, and its build fetches what is not pinned",
+                reason="fodeint is missing: its source could not be had or built (requirements/peers.txt)",
             ),
         ),
     ],
