@@ -49,6 +49,7 @@ def share(_: click.Context, __: click.Parameter, value: str) -> Fraction:
 @click.option("-o", "--output", type=FILE, metavar="CERTDIR", help="write each certificate, a baseline for later")
 @click.option("--baseline", type=FOLDER, metavar="CERTDIR", help="fail also where a margin shrank since these")
 @click.option("--loss", default="10%", show_default=True, callback=share, metavar="SHARE", help="that it may lose")
+@click.option("--new-ok", is_flag=True, help="with --baseline: designs may pass of which it holds no certificate")
 @click.option("--cache", type=FILE, metavar="DIR", help="reuse certificates, each checked again")
 @click.option("-q", "--quiet", is_flag=True, help="print only what does not pass")
 def command(
@@ -64,6 +65,7 @@ def command(
     cache: Path | None,
     *,
     as_json: bool,
+    new_ok: bool,
     quiet: bool,
 ) -> int:
     """Decide every design among files and folders, check each certificate, and answer with one exit status.
@@ -86,10 +88,12 @@ def command(
         raise click.BadParameter(
             "expected another folder than --baseline, which a failing run would replace", param_hint="-o"
         )
+    if new_ok and baseline is None:
+        raise click.UsageError("--new-ok says what --baseline may lack: give --baseline CERTDIR too")
     for folder in (output, cache):
         if folder is not None:
             make_folder(folder)
-    options = Options(require or (OWN,), baseline is not None or output is not None, cache, baseline, loss)
+    options = Options(require or (OWN,), baseline is not None or output is not None, cache, baseline, loss, new_ok)
     teller = _Teller(sum(isinstance(x, Path) for x in found), quiet=quiet, silent=as_json, output=output, cache=cache)
     with _ended_by_sigterm():
         answer = run_gate(found, options, jobs or _processors(), teller.tell)

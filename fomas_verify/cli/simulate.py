@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import click
 
 from fomas_verify.cli.certified import Certified, certified_of
-from fomas_verify.cli.options import design_argument
+from fomas_verify.cli.options import design_argument, json_option
 from fomas_verify.cli.simulate_exactly import DIGITS, Beyond, enclosed, progress_bar, to_digits
 from fomas_verify.design import Design, DesignError, read_design
 from fomas_verify.enclosure.digits import decimal
@@ -73,6 +73,7 @@ def order(_: click.Context, __: click.Parameter, value: str | None) -> Fraction 
 @click.option("--enclose", is_flag=True, help="lower and upper ends of each number, rigorous, in the CSV file")
 @click.option("--csv", "csv_file", type=FILE, metavar="FILE", help="write the samples to a CSV file")
 @click.option("--parquet", type=FILE, metavar="FILE", help="write them to a Parquet file")
+@json_option
 @click.option("--plot", type=FILE, metavar="DIR", help="draw the paper's figures and two more into DIR")
 @click.option(
     "--format", "file_format", type=click.Choice(["pdf", "png", "svg"]), default="pdf", show_default=True,
@@ -92,6 +93,7 @@ def command(
     file_format: str,
     *,
     enclose: bool,
+    as_json: bool,
 ) -> int:
     """Simulate the closed loop of DESIGN: the exact sampled plant under one controller or several.
 
@@ -119,7 +121,8 @@ def command(
     elif digits is not None:
         beyond = to_digits(read, laws, runs, alpha_controller, between=between, digits=digits)
     _write(runs, csv_file, parquet, beyond, {} if plot is None else _figures(plant, runs, known, plot, file_format))
-    for line in (*_lines(read, runs, known, memory), compared, *(beyond.lines if beyond else ())):
+    remarks = (compared, *(beyond.lines if beyond else ()))
+    for line in (_json(read, runs, known, remarks),) if as_json else (*_lines(read, runs, known, memory), *remarks):
         click.echo(line)
     return 0
 
@@ -230,6 +233,12 @@ def _figures(
     limit = None if known.limit is None else array([float(x) for x in known.limit])
     drawn = panels(dense, plant.alpha, limit, known.beta, known.bounds)
     return {folder / f"{panel.name}.{file_format}": draw(panel, file_format) for panel in drawn}
+
+
+def _json(design: Design, runs: Sequence[Trajectory], known: Certified, remarks: Sequence[str]) -> str:
+    from fomas_verify.simulate.record import simulation_json
+
+    return simulation_json(design, runs, known.limit, [" ".join(line.split()) for line in remarks])
 
 
 def _lines(design: Design, runs: Sequence[Trajectory], known: Certified, memory: int | None) -> Iterator[str]:

@@ -7,6 +7,7 @@ Whatever goes wrong with one design is an answer about that design and keeps no 
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -25,8 +26,10 @@ from fomas_verify.gate.model import (
     BROKEN,
     INTERNAL,
     LIMIT,
+    NEW,
     UNDECIDED,
     UNREADABLE,
+    WRONG_INPUT,
     Finding,
     Position,
     Result,
@@ -64,6 +67,8 @@ class Options:
         A folder with a certificate for each design, named after it.
     loss : Fraction
         The share of a baseline's margin that may be lost.
+    new_ok : bool
+        Whether a design passes of which the baseline holds no certificate.
     """
 
     require: tuple[str, ...] = (OWN,)
@@ -71,6 +76,7 @@ class Options:
     cache: Path | None = None
     baseline: Path | None = None
     loss: Fraction = Fraction(0)
+    new_ok: bool = False
 
 
 def decide(path: Path, options: Options) -> Result:
@@ -132,10 +138,14 @@ def _decided(named: Named, answer: Result, options: Options) -> Result:
         answer = replace(answer, certificate=text)
         findings = list(_findings(_checked(text, named), answer.required, decisions))
     if options.baseline is not None:
-        parts = (options.baseline, answer.name, answer.required, answer.certificate, options.loss)
-        findings += shrunk_margins(*parts)
-        if not certificate_file(options.baseline, answer.name).exists():
-            answer = replace(answer, note="no baseline")
+        former_file = certificate_file(options.baseline, answer.name)
+        if os.path.lexists(former_file):
+            findings += shrunk_margins(former_file, answer.required, answer.certificate, options.loss)
+        elif options.new_ok:
+            answer = replace(answer, note="new: no baseline")
+        else:
+            reason = f"no certificate of {answer.name!r} in the baseline: a new design needs --new-ok, or {former_file}"
+            findings.append(Finding(NEW, "", WRONG_INPUT, reason))
     return replace(answer, findings=tuple(_placed(Path(answer.path), _plain(named), findings)))
 
 
@@ -181,14 +191,15 @@ def _findings(report: Report, required: tuple[str, ...], decisions: Mapping[str,
 
 
 def _placed(path: Path, design: Design, findings: list[Finding]) -> Iterator[Finding]:
-    """Each finding at the key to change: the graph, or the gain."""
+    """Each finding at the key to change: the graph, the gain, or the name."""
     if not findings:
         return
     text = _text(path)
     gain = "mu" if design.mu is not None else "gamma"
     for finding in findings:
         graph = finding.rule in _ABOUT_THE_GRAPH or finding.outcome == "inapplicable"
-        yield replace(finding, position=position_of(text, format_of(path, text), ("graph",) if graph else (gain,)))
+        key = "name" if finding.rule == NEW else "graph" if graph else gain
+        yield replace(finding, position=position_of(text, format_of(path, text), (key,)))
 
 
 def refusal_position(path: Path, message: str) -> Position:

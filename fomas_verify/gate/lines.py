@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Final
 
 from fomas_verify.gate.model import WORDS, Answer, Result, Skipped
@@ -30,8 +30,20 @@ def summary(answer: Answer) -> Iterator[str]:
     total = len(answer.results)
     yield f"{total} design{'' if total == 1 else 's'}: {counts}" if total else "no design found"
     for reason, names in by_reason(answer.skipped).items():
-        more = f" and {len(names) - _NAMED} more" if len(names) > _NAMED else ""
-        yield f"skipped: {', '.join(names[:_NAMED])}{more}: {reason}"
+        yield f"skipped: {_first(names)}: {reason}"
+    noted: dict[str, list[str]] = {}
+    for result in answer.results:
+        if result.note:
+            noted.setdefault(result.note, []).append(result.name)
+    yield from (f"{note}: {_first(names)}" for note, names in noted.items())
+    if answer.unmatched:
+        yield f"baseline of no design here: {_first(answer.unmatched)}"
+
+
+def _first(names: Sequence[str]) -> str:
+    """The first few of them, and how many more there are."""
+    more = f" and {len(names) - _NAMED} more" if len(names) > _NAMED else ""
+    return f"{', '.join(names[:_NAMED])}{more}"
 
 
 def by_reason(skipped: tuple[Skipped, ...]) -> dict[str, list[str]]:

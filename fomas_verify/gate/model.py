@@ -20,11 +20,13 @@ WORDS: Final = {0: "pass", FALSE: "fail", WRONG_INPUT: "error", UNDECIDED: "unde
 
 UNREADABLE: Final = "design-file"
 SHRUNK: Final = "baseline-margin"
+NEW: Final = "baseline-missing"
 LIMIT: Final = "work-limit"
 BROKEN: Final = "internal-error"
 RULES: Final = {
     UNREADABLE: "the file can be read as a design",
     SHRUNK: "no margin is smaller than the baseline's by more than the stated share",
+    NEW: "the baseline holds a certificate of the design",
     LIMIT: "the design is decided within the work allowed",
     BROKEN: "two computations that must agree do, and no error is the tool's own",
 }
@@ -134,10 +136,19 @@ class Skipped:
 
 @dataclass(frozen=True)
 class Answer:
-    """The answer about all designs, in the order of the input."""
+    """The answer about all designs, in the order of the input.
+
+    Attributes
+    ----------
+    results, skipped : tuple of Result, and of Skipped
+        What was found.
+    unmatched : tuple of str
+        Certificates of the baseline that are of none of the designs.
+    """
 
     results: tuple[Result, ...]
     skipped: tuple[Skipped, ...] = ()
+    unmatched: tuple[str, ...] = ()
 
     @property
     def status(self) -> int:

@@ -14,6 +14,7 @@ def gate_json(answer: Answer) -> str:
         "status": answer.status,
         "designs": [_design(result) for result in answer.results],
         "skipped": [{"file": entry.source, "reason": entry.reason} for entry in answer.skipped],
+        "unmatched_baselines": list(answer.unmatched),
     }
     return json.dumps(document, indent=2) + "\n"
 

@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from contextlib import closing
 from pathlib import Path
 
+from fomas_verify.gate.baseline import unmatched_certificates
 from fomas_verify.gate.deciding import Options, refusal_position
 from fomas_verify.gate.discovery import Found
 from fomas_verify.gate.model import Answer, Result, Skipped, refusal
@@ -45,7 +46,9 @@ def run_gate(found: Sequence[Found], options: Options, jobs: int, tell: Callable
                 names[result.name] = result.source
             results.append(result)
             tell(result)
-    return Answer(tuple(results), tuple(entry for entry in found if isinstance(entry, Skipped)))
+    skipped = tuple(entry for entry in found if isinstance(entry, Skipped))
+    unmatched = () if options.baseline is None else unmatched_certificates(options.baseline, names)
+    return Answer(tuple(results), skipped, unmatched)
 
 
 def _second_of_its_name(result: Result, first: str) -> Result:

@@ -89,7 +89,7 @@ TABLE: dict[str, dict[int, list[tuple[str, str]]]] = {
         130: [("region good.toml", INTERRUPT.format("region", "find_region"))],
     },
     "simulate": {
-        0: [("simulate start.toml --samples 3", "")],
+        0: [("simulate start.toml --samples 3", ""), ("simulate start.toml --samples 3 --json", "")],
         2: [("simulate good.toml", ""), ("simulate start.toml --csv no/where.csv", ""), ("simulate", "")],
         4: [("simulate start.toml --samples 3", LIMIT)],
         130: [("simulate start.toml", INTERRUPT.format("simulate", "certified_of"))],

@@ -343,3 +343,21 @@ def test_agents_that_agree_are_drawn(call: Verify, tmp_path: Path) -> None:
 def test_two_outputs_need_a_file_each(call: Verify, tmp_path: Path) -> None:
     run = call("simulate", PAPER, "--samples", 5, "--csv", tmp_path / "a", "--parquet", tmp_path / "a")
     assert (run.returncode, list(tmp_path.iterdir())) == (2, [])
+
+
+def test_json_says_what_the_table_says(call: Verify, tmp_path: Path) -> None:
+    """K2 at mu L with eigenvalue z = 1 - 2 mu: the distance from the mean 1/2 is abs(z)^k / 2."""
+    run = call("simulate", design(tmp_path), "--samples", 30, "--json", "--csv", tmp_path / "x.csv")
+    assert (run.returncode, run.stderr) == (0, "")
+    found = json.loads(run.stdout)
+    assert (found["alpha"], found["gamma"], found["h"], found["limit"]) == ("1/2", "1/4", "1", ["1/2"])
+    proposed, memoryless = found["controllers"]
+    assert [proposed["controller"], memoryless["controller"]] == ["proposed", "memoryless"]
+    z = 1 - 2 * 0.25 / 0.886226925452758
+    assert proposed["mean_absolute_error"]["20"] == pytest.approx(z**20 / 2)
+    assert (proposed["at"], proposed["samples"], proposed["stopped"]) == (1, 30, False)
+    assert proposed["largest_norm_u"] == pytest.approx(0.25 * 2**0.5 * (z + 2 - 2**0.5))
+    assert any("bounded at every sample as certified" in remark for remark in found["remarks"])
+    apart = {"edges": [], "agents": 2}
+    (lone, _) = json.loads(call("simulate", design(tmp_path, graph=apart), "--json").stdout)["controllers"]
+    assert lone["mean_absolute_error"] is None

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from fomas_verify.cli import main
+from fomas_verify.gate import baseline as baseline_margins
 from fomas_verify.gate.baseline import margins_of
 
 PAPER = """name = "{name}"
@@ -87,11 +88,51 @@ def test_only_required_claims_are_compared(baseline: Path, tmp_path: Path) -> No
     assert gate(tmp_path, design("0.3", require=("average-consensus",)), baseline) == 0
 
 
-def test_a_new_design_has_no_baseline(baseline: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert gate(tmp_path, design("0.1495", name="another"), baseline) == 0
-    assert "proved and checked (no baseline)" in capsys.readouterr().out
-    assert gate(tmp_path, design(), baseline) == 0
-    assert "no baseline" not in capsys.readouterr().out
+def test_a_design_without_a_baseline_fails_unless_it_may_be_new(
+    baseline: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A design that is renamed as its margin shrinks does not get past; what is left of it is named."""
+    assert gate(tmp_path, design("0.1495", name="another"), baseline) == 2
+    lines = capsys.readouterr().out.splitlines()
+    assert "x.design.toml: no certificate of 'another' in the baseline: a new design needs --new-ok" in lines[0]
+    assert lines[1:] == ["1 design: 1 error", "baseline of no design here: the plant%2F1.json"]
+    assert gate(tmp_path, design("0.1495", name="another"), baseline, "--new-ok") == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0].endswith("proved and checked (new: no baseline)")
+    assert lines[2:] == ["new: no baseline: another", "baseline of no design here: the plant%2F1.json"]
+    assert gate(tmp_path, design(), baseline, "--new-ok") == 0
+    assert len(capsys.readouterr().out.splitlines()) == 2
+    assert gate(tmp_path, design("0.1495"), baseline, "--new-ok") == 1
+
+
+def test_a_missing_baseline_in_the_reports(baseline: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    out = tmp_path / "out"
+    out.mkdir()
+    (tmp_path / "in").mkdir()
+    options = ("--json", "--sarif", str(out / "s"), "--markdown", str(out / "m"), "--junit", str(out / "j"))
+    assert gate(tmp_path / "in", design(name="another"), baseline, *options) == 2
+    document = json.loads(capsys.readouterr().out)
+    assert document["unmatched_baselines"] == ["the plant%2F1.json"]
+    (finding,) = document["designs"][0]["findings"]
+    assert (finding["rule"], finding["status"], finding["line"]) == ("baseline-missing", 2, 1)
+    (result,) = json.loads((out / "s").read_text())["runs"][0]["results"]
+    assert result["ruleId"] == "baseline-missing"
+    assert "baseline of no design here" in (out / "m").read_text()
+    assert 'name="baseline-missing"' in (out / "j").read_text()
+
+
+def test_a_margin_that_is_no_longer_found_is_undecided() -> None:
+    """Where the baseline has one; a margin in alpha may be without end."""
+    former = {"mu": Fraction(1, 2), "alpha": Fraction(1, 3)}
+    (finding,) = baseline_margins._compared("gain-bound", former, {}, Fraction(1, 10))
+    assert (finding.status, "was not found" in finding.reason) == (3, True)
+    assert list(baseline_margins._compared("gain-bound", {"mu": Fraction(-1)}, {}, Fraction(0))) == []
+
+
+def test_new_ok_is_about_a_baseline(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "x.design.toml").write_text(design())
+    assert main(["gate", str(tmp_path), "--new-ok"]) == 2
+    assert "give --baseline" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(
