@@ -8,7 +8,7 @@ from pathlib import Path
 import click
 
 from fomas_verify.cli.options import design_argument, json_option
-from fomas_verify.design import read_design
+from fomas_verify.design import DesignError, SwitchedDesign, UncertainDesign, read_named
 from fomas_verify.region import Region, certificate, find_region, record, region_text
 from fomas_verify.report.files import write_whole
 
@@ -36,7 +36,16 @@ def command(design: Path, output: Path | None, plot: Path | None, solver: str, *
     Example:  verify-design region examples/paper.toml -o region.json
     """
     file_format = None if plot is None else _format(plot)
-    named = read_design(design)
+    named = read_named(design)
+    if isinstance(named, UncertainDesign):
+        where = next(iter(named.ranges))
+        only = "only prove, check and gate take one"
+        raise DesignError(f"{named.least.source}: {where}: expected a number, got an interval: {only}")
+    if isinstance(named, SwitchedDesign):
+        for option, asked in {"--plot": plot is not None, "--solver": solver == "lmi"}.items():
+            if asked:
+                raise DesignError(f"{named.first.source}: {option} is not supported yet with [[graphs]]")
+        return _switched(named, output, as_json=as_json)
     if solver == "lmi":
         from fomas_verify.region.lmi import need_solver
 
@@ -51,6 +60,17 @@ def command(design: Path, output: Path | None, plot: Path | None, solver: str, *
     if output is not None:
         write_whole(output, certificate(found).encode())
     click.echo(json.dumps(record(found), indent=2) if as_json else region_text(found))
+    return 0
+
+
+def _switched(design: SwitchedDesign, output: Path | None, *, as_json: bool) -> int:
+    from fomas_verify.region.switching_region import find_switched_region
+    from fomas_verify.report.switched_text import switched_region_text
+
+    found = find_switched_region(design)
+    if output is not None:
+        write_whole(output, found.certificate().encode())
+    click.echo(json.dumps(found.record(), indent=2) if as_json else switched_region_text(found))
     return 0
 
 

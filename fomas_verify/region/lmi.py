@@ -88,7 +88,7 @@ def by_clarabel(loop: Loop, goal: Goal, bound: Fraction, attempt: int) -> Propos
     import cvxpy as cp
     import numpy as np
 
-    basis = _basis(loop.design.graph.agents)
+    basis = orthonormal_basis(loop.design.graph.agents)
     degree = float(loop.degree_max)
     laplacian = np.array([[float(x) for x in row] for row in exact.to_rows(loop.laplacian)]) / degree
     scale = 1.0 + attempt
@@ -124,8 +124,8 @@ def solved(problem: Any, tolerance: float) -> bool:
     return all(variable.value is not None for variable in problem.variables())
 
 
-def _basis(agents: int) -> Any:
-    """An orthonormal basis of 1perp, column by column (Helmert)."""
+def orthonormal_basis(agents: int) -> Any:
+    """An orthonormal basis of 1perp, column by column (Helmert); approximate."""
     import numpy as np
 
     basis = np.zeros((agents, agents - 1))

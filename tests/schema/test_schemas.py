@@ -22,7 +22,7 @@ from fomas_verify.checker.document import read_document
 from fomas_verify.cli.init import NAME, TEMPLATE
 from fomas_verify.design import DesignError
 from fomas_verify.design.document import Number, format_of, parse_document, read_text
-from fomas_verify.design.reading import any_from_mapping
+from fomas_verify.design.reading import named_from_mapping
 
 ROOT = Path(__file__).resolve().parents[2]
 CORPUS = ROOT / "tests" / "corpus"
@@ -41,6 +41,7 @@ UNSAYABLE_OF_DESIGNS = [
     r"edges\[\d+\]\[[01]\]: expected an integer >= 1 and <= \d+",
     r"agents: expected \d+, as the shape says",
     r"(agents|shape): .* agents, more than 2000, are not supported yet",
+    r"graphs\[\d+\]: expected \d+ agents as before",
     # the value of a fraction in a string, and bits
     r"(alpha|settle_to)(\[[01]\])?: expected a number between 0 and 1, both excluded, got ('|\")",
     r"\[1\]: expected a number above ",
@@ -53,7 +54,7 @@ UNSAYABLE_OF_DESIGNS = [
     r"name: expected a text of 1 to 200 printable characters",
 ]
 UNSAYABLE_OF_CERTIFICATES = [
-    r"expected an array of \d+( rationals)?,",
+    r"expected an array of \d+( rationals| matrices)?,",
     r"expected a lower triangle of \d+ rows",
     r"expected an array of \d+ rationals",
     r"a self-loop$",
@@ -96,7 +97,7 @@ def design_refusal(document: object) -> str:
                 return value
 
     try:
-        any_from_mapping(written(document), "d")
+        named_from_mapping(written(document), "d")
     except DesignError as error:
         return str(error)
     return ""
@@ -155,6 +156,12 @@ MORE = [
         "graph": {"family": "path", "agents": 2},
         "x0": [1, 2],
         "gate": {"require": ["trajectory-norm-bound"]},
+    },
+    {
+        "alpha": "0.5",
+        "mu": [1, 2],
+        "graphs": [{"family": "path", "agents": 2}, {"agents": 2, "edges": [[1, 2]]}],
+        "gate": {"require": ["gain-bound"]},
     },
 ]
 BASES = [*GOOD.values(), *MORE, tomllib.loads(TEMPLATE.format(name=NAME), parse_float=decimal)]
@@ -284,6 +291,10 @@ def test_mutants_of_certificates() -> None:
         "margins",
         "rate",
         "samples",
+        "graphs",
+        "graph",
+        "solver",
+        "Z",
     ]
     accepted = 0
     for _ in range(MUTANTS):
