@@ -43,9 +43,9 @@ def shrunk_margins(
     Yields
     ------
     Finding
-        For each margin that lost more, for a design that has intervals now and so no margins, and where the baseline's
-        certificate is none. Nothing where it is missing, or
-        holds no margin of the claim: then the design is new, or the claim was not true before.
+        For each margin that lost more, for a design that has intervals or several graphs now and so no margins, and
+        where the baseline's certificate is none. Nothing where it is missing, or holds no margin of the claim: then the
+        design is new, or the claim was not true before.
     """
     path = certificate_file(folder, name)
     try:
@@ -65,8 +65,10 @@ def shrunk_margins(
         )
         return
     former, present = json.loads(data), json.loads(certificate)
-    if "margins" in former["values"] and any(isinstance(x, list) for x in map(present["design"].get, NUMBERS)):
-        words = "margins cannot be compared with the baseline's: the design has an interval"
+    several = [key for key in (*NUMBERS, "graphs") if isinstance(present["design"].get(key), list)]
+    if "margins" in former["values"] and several:
+        what = "several graphs" if "graphs" in several else "an interval"
+        words = f"margins cannot be compared with the baseline's: the design has {what}"
         yield Finding(SHRUNK, "", FALSE, words)
     for claim in dict.fromkeys(EQUIVALENT.get(name, name) for name in required):
         yield from _compared(claim, margins_of(former, claim), margins_of(present, claim), loss)

@@ -18,6 +18,7 @@ from fomas_verify.enclosure.interval import short_dyadic
 from fomas_verify.region.common_form import SOLVER
 from fomas_verify.region.common_search import Search
 from fomas_verify.region.errors import UndecidedRegionError
+from fomas_verify.region.find import STABILITY_GAPS
 from fomas_verify.region.switching import MOST_AGENTS, Searcher
 from fomas_verify.spectrum import margins
 from fomas_verify.spectrum.loop import Loop
@@ -89,13 +90,16 @@ def _tiny(end: Fraction) -> Fraction:
 
 
 def _common_form(source: str, search: Search) -> SwitchedStrip:
-    alone = [margins.perron_eigenvalues(loop) for loop in search.loops]
+    alone = [margins.perron_eigenvalues(loop, STABILITY_GAPS) for loop in search.loops]
     ends = [(found.outer[1], i, found) for i, found in enumerate(alone, 1) if found is not None]
     if len(ends) != len(alone):
         raise UndecidedRegionError(f"{source}: mu* of a graph was not decided within the work allowed")
     most, first, single = min(ends, key=lambda end: end[0])
     low, high = search.limit(single.upper.lower)
-    form = next((form for gap in GAPS if (form := search.form(below(low, gap))) is not None), None)
+    # Below 1/D the norm decreases, whatever a solver says.
+    starts = low, 1 / max(loop.degree_max for loop in search.loops)
+    tried = (search.form(below(start, gap)) for start in starts for gap in GAPS)
+    form = next((form for form in tried if form is not None), None)
     if form is None:
         raise UndecidedRegionError(f"{source}: common-form: not decided within the work allowed")
     outer, shown = most, {"graph": first} | {key: x for key, x in single.witness.items() if key in ("power", "Y")}

@@ -44,6 +44,11 @@ def switched_region_text(region: SwitchedRegion) -> str:
             weight = one_step_weight(first.alpha, first.h, BITS)
             gamma = rounded_down(strip.inner[1] / weight.upper, DIGITS)
             lines.append(f"{'':<11}  gamma up to {gamma} at h = {decimal(Interval.exactly(first.h), DIGITS)}")
+    lines += [
+        "",
+        "common-form: one quadratic form decreases under every graph, so that they may be switched in any order;",
+    ]
+    lines.append("  above its end no form does, which does not exclude consensus unless a graph fails alone")
     return "\n".join(lines)
 
 

@@ -23,6 +23,7 @@ from fomas_verify.cli.init import NAME, TEMPLATE
 from fomas_verify.design import DesignError
 from fomas_verify.design.document import Number, format_of, parse_document, read_text
 from fomas_verify.design.reading import named_from_mapping
+from tests.checker import switched
 
 ROOT = Path(__file__).resolve().parents[2]
 CORPUS = ROOT / "tests" / "corpus"
@@ -299,6 +300,32 @@ def test_mutants_of_certificates() -> None:
     accepted = 0
     for _ in range(MUTANTS):
         document = mutated(source.choice(bases), source, keys, VALUES)
+        agree_on_certificate(document)
+        accepted += not certificate_refusal(document)
+    assert 0.02 * MUTANTS < accepted < 0.9 * MUTANTS
+
+
+SWITCHED = [
+    switched.proved(),
+    switched.slow(),
+    switched.undecided(),
+    switched.region_by_dual(),
+    switched.region_by_graph(),
+]
+
+
+@pytest.mark.parametrize("document", SWITCHED)
+def test_both_accept_a_certificate_about_graphs_to_switch_among(document: dict[str, Any]) -> None:
+    assert certificate_refusal(document) == ""
+    CERTIFICATES.validate(document)
+
+
+def test_mutants_of_certificates_about_graphs_to_switch_among() -> None:
+    source = random.Random(3)
+    keys = ["edges", "graphs", "graph", "mu", "gamma", "h", "Q", "Z", "Y", "power", "solver", "rate", "outer", "bits"]
+    accepted = 0
+    for _ in range(MUTANTS):
+        document = mutated(source.choice(SWITCHED), source, keys, VALUES)
         agree_on_certificate(document)
         accepted += not certificate_refusal(document)
     assert 0.02 * MUTANTS < accepted < 0.9 * MUTANTS
