@@ -25,7 +25,7 @@ MAX_GRAPHS: Final = 64
 
 _KEYS = ("name", "alpha", "gamma", "mu", "h", "x0", "horizon", "settle_to", "graph", "gate", "format", "graphs")
 _UNSUPPORTED = ("limits",)
-_NOT_SWITCHED = ("x0", "horizon", "settle_to")
+_NOT_SWITCHED = ("x0", "horizon", "settle_to", "limits")
 _ALPHA_LIMIT = 2**64
 
 

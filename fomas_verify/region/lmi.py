@@ -104,7 +104,7 @@ def by_clarabel(loop: Loop, goal: Goal, bound: Fraction, attempt: int) -> Propos
         problem = cp.Problem(sense, [inequality, *limits, rho == float(bound)])
     if not solved(problem, TOLERANCES[min(attempt, 1)]):
         return None
-    pairs = _pairs(basis, inequality.dual_value) if goal is Goal.LEAST_SIGMA else ()
+    pairs = singular_pairs(basis, inequality.dual_value) if goal is Goal.LEAST_SIGMA else ()
     return Proposal(float(share.value) / scale / degree, float(rho.value), pairs)
 
 
@@ -136,7 +136,7 @@ def orthonormal_basis(agents: int) -> Any:
     return basis
 
 
-def _pairs(basis: Any, dual: Any) -> tuple[FloatPair, ...]:
+def singular_pairs(basis: Any, dual: Any) -> tuple[FloatPair, ...]:
     """The vectors behind the dual matrix: with ``z = (p, q)`` an eigenvector, ``(-U q, U p)`` times the root of its
     eigenvalue.
     """
