@@ -16,7 +16,7 @@ from fomas_verify.checker.definite import least_sign
 from fomas_verify.checker.facts import Facts
 from fomas_verify.checker.graph import Graph, Rows, common_denominator, limit_size
 from fomas_verify.checker.ruling import Undecided, need, need_that
-from fomas_verify.checker.stability import MAX_PRODUCT_WORK, differences_step, require_decrease
+from fomas_verify.checker.stability import MAX_PRODUCT_WORK, differences_step, power_trace_beyond, require_decrease
 from fomas_verify.checker.statements import SWITCHED_CONDITIONS, SWITCHED_STATEMENTS
 from fomas_verify.checker.switching_form import (
     Dual,
@@ -25,6 +25,7 @@ from fomas_verify.checker.switching_form import (
     SwitchedCondition,
     SwitchedDesign,
     SwitchedRate,
+    Word,
 )
 from fomas_verify.checker.value_form import Bounds, Value
 from fomas_verify.checker.witness import Lyapunov
@@ -76,6 +77,9 @@ def require_switched_claim(switched: Switched, claim: SwitchedClaim) -> str:
     if isinstance(witness, OfGraph):
         require_shown(switched.facts(1, witness.graph), claim.id, "refuted", witness.witness)
         return f"true, and the witness shows it of digraph {witness.graph}"
+    if isinstance(witness, Word):
+        _require_growth(switched, witness)
+        return f"true, and the witness shows it of the digraphs {list(witness.graphs)} in turn"
     if isinstance(witness, Lyapunov):
         need(switched.facts(1).compare_mu(witness.mu), (-1, 0), "mu <= witness.mu")
         _require_form(switched, witness)
@@ -113,6 +117,23 @@ def _require_form(switched: Switched, proof: Lyapunov) -> None:
     """Return if Q > 0 and Q - Pc_i(t)^T Q Pc_i(t) > 0 for every i."""
     for graph in switched.graphs:
         require_decrease(graph, proof.mu, proof.rows)
+
+
+def _require_growth(switched: Switched, word: Word) -> None:
+    """Return if mu is a number of the design and abs trace of a power of Pc_(i_k)(mu) ... Pc_(i_1)(mu) > N - 1."""
+    least, greatest = switched.design.end(0).mu, switched.design.end(1).mu
+    inside = least is not None and greatest is not None and least <= word.mu <= greatest
+    need_that(inside, "witness.mu is the mu of the design, given as a number, or one of its interval")
+    size = switched.design.agents - 1
+    product, denominator = [[int(i == j) for j in range(size)] for i in range(size)], 1
+    for letter in word.graphs:
+        step, f = differences_step(switched.graphs[letter - 1], word.mu)
+        limit_size(_bits(product) + _bits(step) + size.bit_length(), size)
+        columns = list(zip(*product, strict=True))
+        product = [[sum(map(mul, row, column)) for column in columns] for row in step]
+        denominator *= f
+    sign = power_trace_beyond(product, denominator, word.power)
+    need(sign, (1,), "abs trace((Pc_(i_k)(mu) ... Pc_(i_1)(mu))^power) > N - 1")
 
 
 def _require_no_form(switched: Switched, dual: Dual) -> None:

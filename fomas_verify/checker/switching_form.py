@@ -21,10 +21,11 @@ from fomas_verify.checker.designs import (
 from fomas_verify.checker.statements import SWITCHED_CONDITIONS, SWITCHED_STATEMENTS, VERDICTS
 from fomas_verify.checker.text import Malformed, array, count, expected, fields, rational, string
 from fomas_verify.checker.value_form import Bounds, Rate, Value
-from fomas_verify.checker.witness import Lyapunov, Nothing, Triangle, Witness, read_triangle, read_witness
+from fomas_verify.checker.witness import Lyapunov, Nothing, Triangle, Witness, read_power, read_triangle, read_witness
 
-MOST_GRAPHS = 64
+MOST_GRAPHS = MOST_LETTERS = 64
 _MOST_NAME = 64
+_SWITCHED = ("control-bounded", "average-consensus")
 _END = ("Z", "graph", "power", "Y")
 
 
@@ -61,6 +62,15 @@ class OfGraph:
 
 
 @dataclass(frozen=True)
+class Word:
+    """Digraphs, counted from 1, in the order in which they hold, over and over: some power of the product grows."""
+
+    graphs: tuple[int, ...]
+    mu: Fraction
+    power: int
+
+
+@dataclass(frozen=True)
 class Dual:
     """Z_i >= 0 that show that no form decreases under every digraph at mu."""
 
@@ -75,7 +85,7 @@ class SwitchedClaim:
     id: str
     verdict: str
     statement: str
-    witness: Nothing | Lyapunov | OfGraph | Dual
+    witness: Nothing | Lyapunov | OfGraph | Word | Dual
 
 
 @dataclass(frozen=True)
@@ -191,14 +201,16 @@ def _entries(
 
 def _witness(
     name: str, verdict: str, value: object, path: str, design: SwitchedDesign
-) -> Nothing | Lyapunov | OfGraph | Dual:
+) -> Nothing | Lyapunov | OfGraph | Word | Dual:
     if verdict == "undecided":
-        if isinstance(value, dict) and "Z" in value and name in ("control-bounded", "average-consensus"):
+        if isinstance(value, dict) and "Z" in value and name in _SWITCHED:
             given = fields(value, path, ("mu", "Z"), ("solver",))
             _solver(given, path)
             return Dual(rational(given["mu"], f"{path}.mu"), _matrices(given["Z"], f"{path}.Z", design))
         read_witness(name, verdict, value, path, design.agents)
         return Nothing()
+    if verdict == "refuted" and name in _SWITCHED and isinstance(value, dict) and "word" in value:
+        return _word(value, path, design)
     if verdict == "refuted" and name != "gain-bound":
         return _of_graph(name, value, path, design)
     if verdict == "proved" and name not in ("graph-assumption", "gain-bound"):
@@ -215,6 +227,16 @@ def _of_graph(name: str, value: object, path: str, design: SwitchedDesign) -> Of
     graph = count(value["graph"], f"{path}.graph", 1, len(design.graphs))
     rest = {key: entry for key, entry in value.items() if key != "graph"}
     return OfGraph(graph, read_witness(name, "refuted", rest, path, design.agents))
+
+
+def _word(value: object, path: str, design: SwitchedDesign) -> Word:
+    given = fields(value, path, ("word", "mu", "power"))
+    here = f"{path}.word"
+    entries = array(given["word"], here, "an array of digraphs")
+    if not 1 <= len(entries) <= MOST_LETTERS:
+        raise expected(here, f"1 to {MOST_LETTERS} digraphs", entries)
+    graphs = tuple(count(entry, f"{here}[{i}]", 1, len(design.graphs)) for i, entry in enumerate(entries))
+    return Word(graphs, rational(given["mu"], f"{path}.mu"), read_power(given["power"], f"{path}.power"))
 
 
 def _matrices(value: object, path: str, design: SwitchedDesign) -> tuple[Triangle, ...]:

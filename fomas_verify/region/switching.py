@@ -19,6 +19,7 @@ from fomas_verify.region.common_form import SOLVER, Form, Rate, norm_form, rate
 from fomas_verify.region.common_search import MOST_AGENTS as MOST_SOLVED
 from fomas_verify.region.common_search import Search, installed
 from fomas_verify.region.errors import UndecidedRegionError
+from fomas_verify.region.words import growing_word
 from fomas_verify.spectrum.loop import Loop
 from fomas_verify.spectrum.precision import PRECISIONS
 from fomas_verify.spectrum.stability import Side, lower_triangle, stability
@@ -29,7 +30,8 @@ NEAR = Fraction(1, 1 << 30)
 """A form is sought at a short number at most this share above mu."""
 
 MEANING = "To keep to one graph is a switching, and with that graph alone the agents do not agree."
-REMEDY = "lower mu (gamma, or h) below the mu* of every graph: region shows how far"
+WORD_MEANING = "Each graph alone may be fine; switched in this order they drive the agents apart."
+REMEDY = "lower mu (gamma, or h): region shows how far"
 
 Searcher = Callable[[Sequence[Loop]], Search]
 
@@ -152,6 +154,10 @@ def _consensus(loops: Sequence[Loop], search: Search) -> tuple[Decision, Form | 
     if form is not None:
         reason = f"one quadratic form decreases under {_each(len(loops))} and every mu up to {decimal(mu, 20)}"
         return Decision(Verdict.PROVED, {"mu": t, **form.witness}, reason), form
+    if loops[0].design.mu is not None and (word := growing_word(loops, mu.upper)) is not None:
+        order = ", ".join(map(str, word["word"]))
+        reason = f"the graphs {order} in turn, over and over: at mu = {decimal(mu, 20)} the disagreement grows"
+        return Decision(Verdict.REFUTED, word, reason, WORD_MEANING, REMEDY), None
     return _no_form(search, mu), None
 
 

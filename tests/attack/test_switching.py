@@ -26,6 +26,7 @@ BASES = [
     switched.proved(["1/10", "13/20"]),
     switched.slow(),
     switched.undecided(),
+    switched.in_turn(),
     switched.region_by_dual(),
     switched.region_by_graph(),
 ]
@@ -110,6 +111,12 @@ class Oracle:
             best = max(best, *(float(max(abs(np.linalg.eigvals(w)))) ** (1 / k) for w in products))
         return best
 
+    def in_turn(self, t: float, word: list[int]) -> float:
+        product = np.eye(self.agents)
+        for letter in word:
+            product = self.steps(t)[letter - 1] @ product
+        return float(max(abs(np.linalg.eigvals(product))))
+
     def differences(self, t: float) -> list[np.ndarray]:
         return [np.eye(self.agents - 1) - t * (el[:-1, :-1] - el[-1, :-1]) for el in self.laplacians]
 
@@ -134,6 +141,10 @@ def contradiction(document: dict[str, Any], name: str, kind: str) -> str:
         grows = oracle.growth(top) > 1 + NEAR or not oracle.connected or oracle.imbalance > NEAR
         return "consensus" if grows else ""
     if verdict == "refuted":
+        if "word" in witness:
+            t = float(Fraction(witness["mu"]))
+            outside = not oracle.mu[0] - NEAR <= t <= oracle.mu[1] + NEAR
+            return "in turn" if outside or oracle.in_turn(t, witness["word"]) < 1 - NEAR else ""
         return "stable" if max(oracle.radius(top, i) for i in range(len(oracle.laplacians))) < 1 - NEAR else ""
     return wrong_dual(oracle, float(Fraction(witness["mu"])), witness["Z"]) if "Z" in witness else ""
 

@@ -76,6 +76,19 @@ def undecided() -> Json:
     )
 
 
+ONE = [[1, 2, "5"], [1, 3, "4"], [2, 4, "5"], [3, 1, "5"], [3, 4, "4"], [4, 5, "9"], [5, 1, "4"], [5, 3, "5"]]
+OTHER = [[1, 5, "2"], [2, 1, "2"], [3, 4, "2"], [4, 5, "2"], [5, 2, "2"], [5, 3, "2"]]
+
+
+def in_turn() -> Json:
+    """Each of ONE and OTHER alone agrees at mu = 0.1514; in the order ONE, ONE, OTHER they do not."""
+    return switched(
+        about(ONE, OTHER, mu="757/5000"),
+        said("control-bounded", "refuted", word=[1, 1, 2], mu="757/5000", power=35),
+        said("average-consensus", "refuted", word=[1, 1, 2], mu="757/5000", power=35),
+    )
+
+
 def region_by_dual() -> Json:
     return region(
         about(PAPER_EDGES, RING),

@@ -15,9 +15,12 @@ from tests.checker.switched import (
     DUAL,
     FORM,
     NORM,
+    ONE,
+    OTHER,
     RING,
     about,
     full,
+    in_turn,
     proved,
     region,
     region_by_dual,
@@ -55,6 +58,7 @@ TRUE: dict[str, Json] = {
     "broken": BROKEN,
     "alone": ALONE,
     "single": SINGLE,
+    "in turn": in_turn(),
     "no edge": NO_EDGE,
     "region by dual": region_by_dual(),
     "region by graph": region_by_graph(),
@@ -84,6 +88,18 @@ def test_the_forms_against_numpy() -> None:
         assert np.linalg.eigvalsh(z)[0] > 0
         total += p @ z @ p.T - z
     assert np.linalg.eigvalsh(total)[0] > 0
+
+
+def test_the_graphs_in_turn_against_numpy() -> None:
+    one, other = (step(edges, 5, 0.1514) for edges in (ONE, OTHER))
+    assert max(abs(np.linalg.eigvals(one))) < 1 > max(abs(np.linalg.eigvals(other)))
+    assert max(abs(np.linalg.eigvals(other @ one @ one))) > 1.04
+    assert abs(np.trace(np.linalg.matrix_power(other @ one @ one, 35))) > 4.5
+
+
+def test_in_turn_at_a_number_of_the_interval() -> None:
+    document = place(in_turn(), "design.mu", ["1/10", "1/5"])
+    assert statuses(document) == {"accepted"}
 
 
 def test_a_required_claim_counts_where_it_is_proved() -> None:
@@ -148,6 +164,13 @@ FALSE: list[tuple[Callable[[], Json], dict[str, Any], str]] = [
     (lambda: ALONE, {"claims.0.witness.power": 1}, "abs trace(Pc(witness.mu)^power) > N - 1"),
     (lambda: BROKEN, {"claims.0.witness.graph": 1}, '"out" is the sum'),
     (lambda: BROKEN, {"claims.3": said("average-consensus", "undecided", bits=1)}, "the claim is applicable"),
+    # graphs in turn
+    (in_turn, {"claims.0.witness.word": [1, 2]}, "^power) > N - 1"),
+    (in_turn, {"claims.0.witness.word": [1]}, "^power) > N - 1"),
+    (in_turn, {"claims.0.witness.power": 3}, "^power) > N - 1"),
+    (in_turn, {"claims.0.witness.mu": "758/5000"}, "witness.mu is the mu of the design"),
+    (in_turn, {"design.mu": ["1/10", "3/20"]}, "witness.mu is the mu of the design"),
+    (in_turn, {"design.mu": DELETED, "design.gamma": "1", "design.h": "1"}, "witness.mu is the mu of the design"),
     # a region
     (region_by_dual, {f"{STRIP}.inner.1": "650001/1000000", f"{STRIP}.outer.1": "65/100"}, "inner[1] <= outer[1]"),
     (region_by_dual, {f"{STRIP}.inner.1": "33/50"}, "not true: Q - Pc(t)^T Q Pc(t) > 0"),
@@ -214,6 +237,11 @@ BAD_FORM: list[tuple[Callable[[], Json], str, Any, str]] = [
     (lambda: ALONE, "claims.0.witness.graph", 3, "expected an integer from 1 to 2"),
     (lambda: ALONE, "claims.0.witness.graph", DELETED, 'expected an object with the key "graph"'),
     (lambda: ALONE, "claims.0.witness", [], 'expected an object with the key "graph"'),
+    (in_turn, "claims.0.witness.word", [], "expected 1 to 64 digraphs"),
+    (in_turn, "claims.0.witness.word", [1] * 65, "expected 1 to 64 digraphs"),
+    (in_turn, "claims.0.witness.word.1", 3, "expected an integer from 1 to 2"),
+    (in_turn, "claims.0.witness.power", 0, "expected an integer from 1"),
+    (in_turn, "claims.0.witness.graph", 1, "unknown key"),
     (region_by_dual, "design.mu", ["1", "2"], "expected a rational"),
     (region_by_dual, "values.mu", {"lower": "0", "upper": "1"}, "unknown key"),
     (region_by_dual, "claims.1.verdict", "undecided", "expected one of proved, refuted"),

@@ -18,11 +18,11 @@ from fomas_verify.claims.verdict import Verdict
 from fomas_verify.design import DesignError, SwitchedDesign
 from fomas_verify.design.reading import named_from_mapping
 from fomas_verify.network import laplacian
-from fomas_verify.region import common_search
+from fomas_verify.region import common_search, words
 from fomas_verify.region.common_lmi import Margin, Margins, margins_by_clarabel
 from fomas_verify.region.common_search import Search
 from fomas_verify.region.errors import UndecidedRegionError
-from fomas_verify.region.switching import SwitchedProof, prove_switched
+from fomas_verify.region.switching import SwitchedProof, loops_of, prove_switched
 from fomas_verify.region.switching_region import find_switched_region
 from fomas_verify.spectrum.loop import Loop
 
@@ -75,6 +75,36 @@ def test_what_is_decided(graphs: tuple[dict[str, Any], ...], mu: Any, consensus:
     assert proof.exit_status == status
     assert_accepted(proof.certificate())
     assert (proof.rate is not None) == (consensus == "proved")
+
+
+ONE = {"agents": 5, "edges": [[1, 2, 5], [1, 3, 4], [2, 4, 5], [3, 1, 5], [3, 4, 4], [4, 5, 9], [5, 1, 4], [5, 3, 5]]}
+OTHER = {"agents": 5, "edges": [[1, 5, 2], [2, 1, 2], [3, 4, 2], [4, 5, 2], [5, 2, 2], [5, 3, 2]]}
+
+
+@pytest.mark.parametrize("mu", ["0.15", "0.1514", ["0.1", "0.155"]])
+def test_graphs_in_turn_may_fail_where_each_alone_agrees(mu: Any) -> None:
+    """mu* = 0.1559 and more; numpy sees the product ONE, ONE, OTHER leave the unit disc at mu = 0.1499."""
+    proof = prove_switched(design(ONE, OTHER, mu=mu))
+    for name in CONSENSUS:
+        assert proof.decisions[name].verdict is Verdict.REFUTED
+        assert sorted(proof.decisions[name].witness["word"]) == [1, 1, 2]
+    assert proof.exit_status == 1
+    assert_accepted(proof.certificate())
+
+
+def test_graphs_in_turn_are_not_refuted_where_they_do_not_grow() -> None:
+    assert verdicts(prove_switched(design(ONE, OTHER, mu="0.149")))["average-consensus"] == "undecided"
+
+
+@pytest.mark.parametrize("limit", ["MOST_BITS", "MOST_POWER", "MOST_PRODUCTS"])
+def test_beyond_its_work_a_search_for_an_order_finds_nothing(monkeypatch: pytest.MonkeyPatch, limit: str) -> None:
+    monkeypatch.setattr(words, limit, 1)
+    assert verdicts(prove_switched(design(ONE, OTHER, mu="0.1514")))["average-consensus"] == "undecided"
+
+
+def test_without_numpy_no_order_is_sought(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(words, "find_spec", lambda name: None)
+    assert words.growing_word(loops_of(design(ONE, OTHER, mu="0.1514")), Fraction("0.1514")) is None
 
 
 def test_without_a_solver_the_gain_bound_suffices() -> None:
