@@ -1,4 +1,4 @@
-"""The canonical JSON of certificates about graphs to switch among. Format: docs/certificate-format.md, section 9."""
+"""The canonical JSON of certificates about graphs to switch among. Format: docs/certificate-format.md, section 10."""
 
 from __future__ import annotations
 

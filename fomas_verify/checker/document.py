@@ -1,6 +1,6 @@
 """The certificate as data: its schema, read from parsed JSON with the path of every defect.
 
-Source: docs/certificate-format.md, sections 1 to 4 and 7 to 9.
+Source: docs/certificate-format.md, sections 1 to 4, 7, 8 and 10.
 """
 
 from dataclasses import dataclass
@@ -65,7 +65,7 @@ def read_document(data: bytes) -> Document:
     _literal(tool["name"], "$.tool.name", "fomas_verify")
     if len(string(tool["version"], "$.tool.version")) > 64:
         raise expected("$.tool.version", "at most 64 characters", tool["version"])
-    if is_switched(top["design"]):
+    if is_switched(top["design"]) and kind in ("design", "region"):
         return _switched(top, of_region=kind == "region")
     if kind == "region":
         family = read_family(top["design"], "$.design")

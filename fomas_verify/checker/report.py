@@ -1,6 +1,6 @@
 """The checker's answer to a certificate: an outcome for each value and claim, and an exit status.
 
-Source: docs/certificate-format.md, sections 6, 8 and 9.
+Source: docs/certificate-format.md, sections 6, 8 and 10.
 """
 
 from collections.abc import Callable, Iterable

@@ -1,6 +1,6 @@
 """The claims a certificate can make, and what each says, to the letter.
 
-Source: docs/certificate-format.md, sections 4, 8 and 9.
+Source: docs/certificate-format.md, sections 4, 8 and 10.
 """
 
 STATEMENTS: dict[str, str] = {

@@ -1,6 +1,6 @@
 """What a certificate about graphs to switch among says, as data, read with the path of every defect.
 
-Source: docs/certificate-format.md, section 9.
+Source: docs/certificate-format.md, section 10.
 """
 
 from collections.abc import Callable

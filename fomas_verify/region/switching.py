@@ -1,4 +1,4 @@
-"""The claims about a design whose digraph is switched, decided. Source: docs/certificate-format.md, section 9; theory,
+"""The claims about a design whose digraph is switched, decided. Source: docs/certificate-format.md, section 10; theory,
 section 10.
 """
 
