@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from fractions import Fraction
 from pathlib import Path
 
-from benchmarks import simulate
+from benchmarks import simulate, switching
 from benchmarks.gate import COUNT as GATE_COUNT
 from benchmarks.gate import rows as gate_rows
 from benchmarks.measure import Cost, run, typical
@@ -41,6 +41,7 @@ def rows(folder: Path) -> Iterator[str]:
     yield from sixty_agents(folder)
     yield from sampled_rows(folder)
     yield from region_rows(folder)
+    yield from (line(*row) for row in switching.rows((5, 12)))
     yield from horizon_rows()
     yield from (line(*row) for row in simulate.rows())
     yield from (line(*row) for row in gate_rows(GATE_COUNT, 2))
@@ -98,6 +99,11 @@ def region_rows(folder: Path) -> Iterator[str]:
         yield line(f"region {name}, wall", f"{found.wall:.2f} s", goal)
         check = typical(["-I", "-S", "fomas_verify/checker", certificate], times=3)
         yield line(f"check region {name}, wall", f"{check.wall:.2f} s", "")
+    solver, both = (
+        typical(["-c", "import cvxpy"], times=3),
+        typical([*TOOL, "region", PAPER, "--solver", "lmi"], times=3),
+    )
+    yield line("region paper --solver lmi, wall, less import cvxpy", f"{both.wall - solver.wall:.2f} s", "below 3 s")
 
 
 def horizon_rows() -> Iterator[str]:

@@ -9,7 +9,7 @@ from typing import Any
 
 from fomas_verify.claims.registry import CLAIMS
 from fomas_verify.claims.verdict import Decision
-from fomas_verify.design import Design, UncertainDesign
+from fomas_verify.design import Design, SwitchedDesign, UncertainDesign
 from fomas_verify.exact.rational import format_rational
 
 FORMAT = "fomas-certificate/1"
@@ -43,8 +43,10 @@ def certificate_text(
     return dump(document) + "\n"
 
 
-def design_object(named: Design | UncertainDesign) -> dict[str, Any]:
+def design_object(named: Design | UncertainDesign | SwitchedDesign) -> dict[str, Any]:
     """The design as the certificate names it: what the statements are about, without name, file or options."""
+    if isinstance(named, SwitchedDesign):
+        return _switched_object(named)
     design, ranges = (named.least, named.ranges) if isinstance(named, UncertainDesign) else (named, {})
     graph = design.graph
     parts: dict[str, Any] = {"alpha": design.alpha, "gamma": design.gamma, "mu": design.mu, "h": design.h}
@@ -52,6 +54,14 @@ def design_object(named: Design | UncertainDesign) -> dict[str, Any]:
     parts |= {"require": list(design.require)}
     parts |= {key: [x.lower, x.upper] for key, x in ranges.items()}
     return {key: plain(value) for key, value in parts.items() if value is not None}
+
+
+def _switched_object(named: SwitchedDesign) -> dict[str, Any]:
+    """The digraphs in place of the edges, and mu perhaps an interval."""
+    edges = [[[*edge] for edge in sorted(graph.edges)] for graph in named.graphs]
+    mu = None if named.mu is None else named.mu.lower if named.mu.is_exact else [*named.mu.ends]
+    found = {"graphs" if key == "edges" else key: part for key, part in design_object(named.first).items()}
+    return found | {"graphs": plain(edges)} | ({} if mu is None else {"mu": plain(mu)})
 
 
 def _state(design: Design) -> list[Any] | None:

@@ -121,10 +121,15 @@ def _given(value: object, path: str) -> dict[str, object]:
 def _setting(given: dict[str, object], path: str) -> tuple[int, tuple[Edge, ...], State | None, bool, tuple[str, ...]]:
     """The attributes of a `Setting`, in their order."""
     agents = count(given["agents"], f"{path}.agents", 2)
-    edges = _edges(given["edges"], f"{path}.edges", agents)
+    edges = read_edges(given["edges"], f"{path}.edges", agents)
     x0 = _state(given["x0"], f"{path}.x0", agents) if "x0" in given else None
     plain = "x0" in given and not isinstance(array(given["x0"], f"{path}.x0", "an array")[0], list)
     return agents, edges, x0, plain, _require(given["require"], f"{path}.require")
+
+
+def read_interval_or(value: object, path: str) -> Number:
+    """A rational > 0, or an interval of two."""
+    return _number(value, path, read_positive)
 
 
 def _number(value: object, path: str, read: Callable[[object, str], Fraction]) -> Number:
@@ -153,7 +158,8 @@ def read_positive(value: object, path: str) -> Fraction:
     return number
 
 
-def _edges(value: object, path: str, agents: int) -> tuple[Edge, ...]:
+def read_edges(value: object, path: str, agents: int) -> tuple[Edge, ...]:
+    """Edges, sorted; raises `Malformed`."""
     edges: dict[tuple[int, int], Fraction] = {}
     for index, entry in enumerate(array(value, path, "an array of edges")):
         here = f"{path}[{index}]"

@@ -1,6 +1,6 @@
 """The certificate as data: its schema, read from parsed JSON with the path of every defect.
 
-Source: docs/certificate-format.md, sections 1 to 4, 7 and 8.
+Source: docs/certificate-format.md, sections 1 to 4, 7, 8 and 10.
 """
 
 from dataclasses import dataclass
@@ -9,6 +9,16 @@ from fomas_verify.checker.designs import Design, UncertainDesign, read_claim_id,
 from fomas_verify.checker.member_form import MemberWitness, read_member_witness
 from fomas_verify.checker.region_form import Condition, read_conditions
 from fomas_verify.checker.statements import VERDICTS
+from fomas_verify.checker.switching_form import (
+    SwitchedClaim,
+    SwitchedCondition,
+    SwitchedDesign,
+    is_switched,
+    read_switched,
+    read_switched_claims,
+    read_switched_conditions,
+    read_switched_values,
+)
 from fomas_verify.checker.text import Malformed, array, expected, fields, parse, string
 from fomas_verify.checker.value_form import Value, read_values
 from fomas_verify.checker.witness import read_witness
@@ -30,9 +40,9 @@ class Claim:
 class Document:
     """A certificate of which only the form has been checked."""
 
-    design: Design | UncertainDesign
+    design: Design | UncertainDesign | SwitchedDesign
     values: tuple[Value, ...]
-    claims: tuple[Claim | Condition, ...]
+    claims: tuple[Claim | Condition | SwitchedClaim | SwitchedCondition, ...]
 
 
 def read_document(data: bytes) -> Document:
@@ -55,6 +65,8 @@ def read_document(data: bytes) -> Document:
     _literal(tool["name"], "$.tool.name", "fomas_verify")
     if len(string(tool["version"], "$.tool.version")) > 64:
         raise expected("$.tool.version", "at most 64 characters", tool["version"])
+    if is_switched(top["design"]) and kind in ("design", "region"):
+        return _switched(top, of_region=kind == "region")
     if kind == "region":
         family = read_family(top["design"], "$.design")
         fields(top["values"], "$.values", ())
@@ -62,6 +74,15 @@ def read_document(data: bytes) -> Document:
     design = read_design(top["design"], "$.design")
     values = read_values(top["values"], "$.values", design.agents)
     return Document(design, values, _claims(top["claims"], "$.claims", design))
+
+
+def _switched(top: dict[str, object], of_region: bool) -> Document:
+    design = read_switched(top["design"], "$.design", of_region)
+    if of_region:
+        fields(top["values"], "$.values", ())
+        return Document(design, (), read_switched_conditions(top["claims"], "$.claims", design))
+    values = read_switched_values(top["values"], "$.values", design.agents)
+    return Document(design, values, read_switched_claims(top["claims"], "$.claims", design))
 
 
 def _literal(value: object, path: str, text: str) -> None:

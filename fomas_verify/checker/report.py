@@ -1,6 +1,6 @@
 """The checker's answer to a certificate: an outcome for each value and claim, and an exit status.
 
-Source: docs/certificate-format.md, sections 6 and 8.
+Source: docs/certificate-format.md, sections 6, 8 and 10.
 """
 
 from collections.abc import Callable, Iterable
@@ -18,6 +18,13 @@ from fomas_verify.checker.members import Members, require_claim_of_all
 from fomas_verify.checker.region_form import Condition
 from fomas_verify.checker.regions import require_condition
 from fomas_verify.checker.ruling import Refused, Undecided
+from fomas_verify.checker.switching import (
+    Switched,
+    require_switched_claim,
+    require_switched_condition,
+    require_switched_value,
+)
+from fomas_verify.checker.switching_form import SwitchedClaim, SwitchedCondition, SwitchedDesign
 from fomas_verify.checker.value_form import Value
 from fomas_verify.checker.values import require_value
 
@@ -25,7 +32,8 @@ MAX_AGENTS = 2000
 
 Kind = Literal["value", "claim", "condition"]
 Status = Literal["accepted", "refused", "undecided"]
-Said = TypeVar("Said", Value, Claim | Condition)
+Stated = Claim | Condition | SwitchedClaim | SwitchedCondition
+Said = TypeVar("Said", Value, Stated)
 
 
 @dataclass(frozen=True)
@@ -69,7 +77,7 @@ class Report:
     outcomes : one for each value and each claim, in the file's order
     """
 
-    design: Design | UncertainDesign
+    design: Design | UncertainDesign | SwitchedDesign
     outcomes: tuple[Outcome, ...]
 
     @property
@@ -138,20 +146,35 @@ def _outcomes(document: Document) -> Iterable[Outcome]:
         yield Outcome("value", value.name, None, status, reason)
     for claim in document.claims:
         status, reason = _ruled(design.agents, claim_test, claim)
-        kind: Kind = "condition" if isinstance(claim, Condition) else "claim"
+        kind: Kind = "condition" if isinstance(claim, Condition | SwitchedCondition) else "claim"
         yield Outcome(kind, claim.id, claim.verdict, status, reason)
 
 
-def _tests(design: Design | UncertainDesign) -> tuple[Callable[[Value], str], Callable[[Claim | Condition], str]]:
+def _tests(
+    design: Design | UncertainDesign | SwitchedDesign,
+) -> tuple[Callable[[Value], str], Callable[[Stated], str]]:
+    if isinstance(design, SwitchedDesign):
+        return _switched_tests(Switched(design))
     if isinstance(design, UncertainDesign):
         members = Members(design, Graph(design))
         return partial(require_value_of_all, members), lambda claim: require_claim_of_all(members, cast(Claim, claim))
     facts = Facts(design, Graph(design))
 
-    def test(claim: Claim | Condition) -> str:
-        return require_condition(facts, claim) if isinstance(claim, Condition) else require_claim(facts, claim)
+    def test(claim: Stated) -> str:
+        if isinstance(claim, Condition):
+            return require_condition(facts, claim)
+        return require_claim(facts, cast(Claim, claim))
 
     return partial(require_value, facts), test
+
+
+def _switched_tests(switched: Switched) -> tuple[Callable[[Value], str], Callable[[Stated], str]]:
+    def test(claim: Stated) -> str:
+        if isinstance(claim, SwitchedCondition):
+            return require_switched_condition(switched, claim)
+        return require_switched_claim(switched, cast(SwitchedClaim, claim))
+
+    return partial(require_switched_value, switched), test
 
 
 def _ruled(agents: int, test: Callable[[Said], str], said: Said) -> tuple[Status, str]:

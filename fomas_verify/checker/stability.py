@@ -74,7 +74,11 @@ def _bits(rows: Rows) -> int:
 @lru_cache(maxsize=4)
 def trace_beyond(graph: Graph, t: Fraction, n: int) -> int | None:
     """1 if abs trace(Pc(t)^n) > N - 1, -1 if not, None if not decided."""
-    rows, f = differences_step(graph, t)
+    return power_trace_beyond(*differences_step(graph, t), n)
+
+
+def power_trace_beyond(rows: Rows, f: int, n: int) -> int | None:
+    """1 if abs trace((F / f)^n) is more than the number of rows of F, -1 if not, None if not decided."""
     size = len(rows)
     bits = max(_bits(rows), f.bit_length()) + size.bit_length()
     if bits * n <= MAX_EXACT_POWER_BITS:

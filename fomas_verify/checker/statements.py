@@ -1,6 +1,6 @@
 """The claims a certificate can make, and what each says, to the letter.
 
-Source: docs/certificate-format.md, sections 4 and 8.
+Source: docs/certificate-format.md, sections 4, 8 and 10.
 """
 
 STATEMENTS: dict[str, str] = {
@@ -49,5 +49,27 @@ CONDITIONS: dict[str, str] = {
     "consensus": "for some mu > 0 every x_i(t) tends to the mean of x_0, for every x_0, under Assumption 1",
 }
 """What the certificate of a region can say: each that a condition on mu can be met."""
+
+SWITCHED_STATEMENTS: dict[str, str] = {
+    "graph-assumption": "every digraph of the set is strongly connected and balanced (Assumption 1)",
+    "gain-bound": "0 < mu < 1/Delta_max for every digraph of the set (gain bound (15) [eqh])",
+    "control-bounded": (
+        "for every x_0 and every switching among the digraphs of the set and their convex combinations, "
+        "norm u_k is bounded over k and u_k tends to 0"
+    ),
+    "average-consensus": (
+        "for every x_0, every i and every switching among the digraphs of the set and their convex combinations, "
+        "x_i(t) tends to the mean of x_0 as t tends to infinity"
+    ),
+}
+"""The claims about a set of digraphs; the last two presuppose Assumption 1."""
+
+SWITCHED_CONDITIONS: dict[str, str] = {
+    "gain-bound": "some mu > 0 satisfies mu < 1/Delta_max for every digraph of the set",
+    "common-form": (
+        "for some mu > 0 one quadratic form decreases under every digraph of the set, "
+        "so that the agents agree on the mean of x_0 under every switching, under Assumption 1"
+    ),
+}
 
 MARGINS = ("gain-bound", "memory-inequality", "perron-eigenvalues", "repaired-condition", "control-norm-bound")

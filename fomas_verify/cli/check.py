@@ -6,7 +6,7 @@ import json
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -17,7 +17,7 @@ from fomas_verify.exact.errors import FomasError
 
 if TYPE_CHECKING:
     from fomas_verify.checker.report import Shortfall
-    from fomas_verify.design import Design, UncertainDesign
+    from fomas_verify.design import Design, SwitchedDesign, UncertainDesign
 
 LARGEST = 64 << 20
 FALSE, UNDECIDED = 1, 3
@@ -62,33 +62,49 @@ def _expanded(require: tuple[str, ...], report: Report) -> Iterator[str]:
         yield from report.design.require if name == OWN else (name,)
 
 
-def _read_design(path: Path) -> Design | UncertainDesign:
-    from fomas_verify.design import read_any
+def _read_design(path: Path) -> Design | UncertainDesign | SwitchedDesign:
+    from fomas_verify.design import read_named
 
-    return read_any(path)
+    return read_named(path)
 
 
-def differences(report: Report, meant: Design | UncertainDesign) -> list[str]:
+def differences(report: Report, meant: Design | UncertainDesign | SwitchedDesign) -> list[str]:
     """The keys in which the certificate's design and the user's are not the same, as exact numbers and intervals."""
-    from fomas_verify.design import UncertainDesign
+    from fomas_verify.design import SwitchedDesign, UncertainDesign
 
     named, design = report.design, _plain(meant)
     numbers = {"alpha": design.alpha, "gamma": design.gamma, "mu": design.mu, "h": design.h}
     ranges = meant.ranges if isinstance(meant, UncertainDesign) else {}
+    if isinstance(meant, SwitchedDesign) and meant.mu is not None and not meant.mu.is_exact:
+        ranges = {"mu": meant.mu}
     ours = numbers | {key: (x.lower, x.upper) for key, x in ranges.items()}
     pairs = {key: (getattr(named, key), number) for key, number in ours.items()} | {
         "agents": (named.agents, design.graph.agents),
-        "edges": (sorted(named.edges), sorted(design.graph.edges)),
+        **_edges(named, meant),
         "x0": (named.x0, design.x0),
         "require": (set(named.require), set(design.require)),
     }
     return [key for key, (theirs, ours) in pairs.items() if theirs != ours]
 
 
-def _plain(meant: Design | UncertainDesign) -> Design:
-    """What the members of an uncertain design have in common."""
-    from fomas_verify.design import UncertainDesign
+def _edges(named: Any, meant: Design | UncertainDesign | SwitchedDesign) -> dict[str, tuple[object, object]]:
+    """The edges of both, under the key of the user's design; of several digraphs in their order."""
+    from fomas_verify.checker.switching_form import SwitchedDesign as Switched
+    from fomas_verify.design import SwitchedDesign
 
+    theirs = [sorted(graph.edges) for graph in (named.graphs if isinstance(named, Switched) else (named,))]
+    graphs = meant.graphs if isinstance(meant, SwitchedDesign) else (_plain(meant).graph,)
+    key = "graphs" if isinstance(meant, SwitchedDesign) else "edges"
+    same_kind = isinstance(named, Switched) == isinstance(meant, SwitchedDesign)
+    return {key: (theirs if same_kind else None, [sorted(graph.edges) for graph in graphs])}
+
+
+def _plain(meant: Design | UncertainDesign | SwitchedDesign) -> Design:
+    """What the members of an uncertain design have in common; with the first digraph of several."""
+    from fomas_verify.design import SwitchedDesign, UncertainDesign
+
+    if isinstance(meant, SwitchedDesign):
+        return meant.first
     return meant.least if isinstance(meant, UncertainDesign) else meant
 
 
@@ -97,7 +113,7 @@ class _Answer:
     """The checker's report, the design that the certificate must be about, and the claims that must be proved."""
 
     report: Report
-    meant: Design | UncertainDesign | None
+    meant: Design | UncertainDesign | SwitchedDesign | None
     required: tuple[str, ...]
 
     @property

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from fomas_verify.cli.options import design_argument, digits_option
-from fomas_verify.design import Design, DesignError, UncertainDesign, read_any
+from fomas_verify.design import Design, DesignError, SwitchedDesign, UncertainDesign, read_named
 from fomas_verify.prover import Proof, UncertainProof, prove, prove_uncertain
+
+if TYPE_CHECKING:
+    from fomas_verify.region.switching import SwitchedProof
 
 
 @click.command("prove")
@@ -26,7 +30,7 @@ def command(
     \b
     Example:  verify-design prove examples/paper.toml -o certificate.json --horizon 1000
     """
-    proof = _prove(read_any(design), horizon, digits, coq)
+    proof = _prove(read_named(design), horizon, digits, coq)
     if output is not None:
         from fomas_verify.report.files import write_whole
 
@@ -34,24 +38,42 @@ def command(
     if as_json:
         click.echo(proof.certificate(), nl=False)
     else:
-        from fomas_verify.report.text import proof_text, uncertain_text
-
-        click.echo(proof_text(proof) if isinstance(proof, Proof) else uncertain_text(proof))
+        click.echo(_text(proof))
     return proof.exit_status
 
 
+def _text(proof: Proof | UncertainProof | SwitchedProof) -> str:
+    from fomas_verify.report.text import proof_text, uncertain_text
+
+    if isinstance(proof, Proof):
+        return proof_text(proof)
+    if isinstance(proof, UncertainProof):
+        return uncertain_text(proof)
+    from fomas_verify.report.switched_text import switched_proof_text
+
+    return switched_proof_text(proof)
+
+
 def _prove(
-    design: Design | UncertainDesign, horizon: int | None, digits: int, coq: Path | None
-) -> Proof | UncertainProof:
+    design: Design | UncertainDesign | SwitchedDesign, horizon: int | None, digits: int, coq: Path | None
+) -> Proof | UncertainProof | SwitchedProof:
     if isinstance(design, Design):
         proof = prove(design, horizon=horizon, digits=digits)
         if coq is not None:
             _write_coq(proof, coq)
         return proof
+    if isinstance(design, SwitchedDesign):
+        source, what = design.first.source, "[[graphs]]"
+    else:
+        source, what = design.least.source, "an interval"
     for option, value in {"--horizon": horizon, "--coq": coq}.items():
         if value is not None:
-            raise DesignError(f"{design.least.source}: {option} is not supported yet with an interval")
-    return prove_uncertain(design)
+            raise DesignError(f"{source}: {option} is not supported yet with {what}")
+    if isinstance(design, UncertainDesign):
+        return prove_uncertain(design)
+    from fomas_verify.region.switching import prove_switched
+
+    return prove_switched(design)
 
 
 def _write_coq(proof: Proof, folder: Path) -> None:

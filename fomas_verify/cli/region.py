@@ -8,8 +8,8 @@ from pathlib import Path
 import click
 
 from fomas_verify.cli.options import design_argument, json_option
-from fomas_verify.design import read_design
-from fomas_verify.region import certificate, find_region, record, region_text
+from fomas_verify.design import DesignError, SwitchedDesign, UncertainDesign, read_named
+from fomas_verify.region import Region, certificate, find_region, record, region_text
 from fomas_verify.report.files import write_whole
 
 FORMATS = ("pdf", "png", "svg")
@@ -19,8 +19,15 @@ FORMATS = ("pdf", "png", "svg")
 @design_argument
 @click.option("-o", "--output", type=click.Path(path_type=Path), metavar="CERT.json", help="write the certificate")
 @click.option("--plot", type=click.Path(path_type=Path), metavar="FILE", help="draw the strips: .pdf, .png or .svg")
+@click.option(
+    "--solver",
+    type=click.Choice(["direct", "lmi"]),
+    default="direct",
+    show_default=True,
+    help="lmi: hold what was found against the LMI, solved by clarabel",
+)
 @json_option
-def command(design: Path, output: Path | None, plot: Path | None, *, as_json: bool) -> int:
+def command(design: Path, output: Path | None, plot: Path | None, solver: str, *, as_json: bool) -> int:
     """Print on which mu, and so on which (gamma, h), each condition holds, every end of it certified.
 
     DESIGN needs no gamma and no h. With h the table shows the gamma that go with it, with gamma alone the h.
@@ -29,7 +36,23 @@ def command(design: Path, output: Path | None, plot: Path | None, *, as_json: bo
     Example:  verify-design region examples/paper.toml -o region.json
     """
     file_format = None if plot is None else _format(plot)
-    found = find_region(read_design(design))
+    named = read_named(design)
+    if isinstance(named, UncertainDesign):
+        where = next(iter(named.ranges))
+        only = "only prove, check and gate take one"
+        raise DesignError(f"{named.least.source}: {where}: expected a number, got an interval: {only}")
+    if isinstance(named, SwitchedDesign):
+        for option, asked in {"--plot": plot is not None, "--solver": solver == "lmi"}.items():
+            if asked:
+                raise DesignError(f"{named.first.source}: {option} is not supported yet with [[graphs]]")
+        return _switched(named, output, as_json=as_json)
+    if solver == "lmi":
+        from fomas_verify.region.lmi import need_solver
+
+        need_solver()
+    found = find_region(named)
+    if solver == "lmi":
+        _hold_against_lmi(found)
     if plot is not None and file_format is not None:
         from fomas_verify.region.drawing import draw
 
@@ -38,6 +61,28 @@ def command(design: Path, output: Path | None, plot: Path | None, *, as_json: bo
         write_whole(output, certificate(found).encode())
     click.echo(json.dumps(record(found), indent=2) if as_json else region_text(found))
     return 0
+
+
+def _switched(design: SwitchedDesign, output: Path | None, *, as_json: bool) -> int:
+    from fomas_verify.region.switching_region import find_switched_region
+    from fomas_verify.report.switched_text import switched_region_text
+
+    found = find_switched_region(design)
+    if output is not None:
+        write_whole(output, found.certificate().encode())
+    click.echo(json.dumps(found.record(), indent=2) if as_json else switched_region_text(found))
+    return 0
+
+
+def _hold_against_lmi(found: Region) -> None:
+    """Say on standard error what the LMI confirms and of what it gives no usable answer."""
+    from fomas_verify.region.agreement import agreement
+
+    told = agreement(found)
+    if told.agreed:
+        click.echo(f"the LMI agrees: {', '.join(told.agreed)}", err=True)
+    for reason in told.failed:
+        click.echo(f"no answer from the LMI, the direct search stands: {reason}", err=True)
 
 
 def _format(plot: Path) -> str:

@@ -1,18 +1,21 @@
 """The design a user writes: parsing, validation, exact values."""
 
-from fomas_verify.design.claim_ids import CLAIM_IDS, DEFAULT_REQUIRE
+from fomas_verify.design.claim_ids import CLAIM_IDS, DEFAULT_REQUIRE, SWITCHED_CLAIM_IDS
 from fomas_verify.design.errors import DesignError
-from fomas_verify.design.model import Design, UncertainDesign
-from fomas_verify.design.reading import design_from_mapping, parse_design, read_any, read_design
+from fomas_verify.design.model import Design, SwitchedDesign, UncertainDesign
+from fomas_verify.design.reading import design_from_mapping, parse_design, read_any, read_design, read_named
 
 __all__ = [
     "CLAIM_IDS",
     "DEFAULT_REQUIRE",
+    "SWITCHED_CLAIM_IDS",
     "Design",
     "DesignError",
+    "SwitchedDesign",
     "UncertainDesign",
     "design_from_mapping",
     "parse_design",
     "read_any",
     "read_design",
+    "read_named",
 ]

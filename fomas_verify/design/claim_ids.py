@@ -25,3 +25,9 @@ CLAIM_IDS: Final = (
     "control-bounded",
     "average-consensus",
 )
+
+SWITCHED_CLAIM_IDS: Final = ("graph-assumption", "gain-bound", "control-bounded", "average-consensus")
+"""The claims about a set of digraphs to switch among."""
+
+SWITCHED_REQUIRE: Final = ("graph-assumption", "control-bounded", "average-consensus")
+"""Those required of it where the design does not say: they do not need (15)."""

@@ -113,3 +113,26 @@ class UncertainDesign:
             None if x is None else x.lower + share * x.width for x in map(self.range_of, ("gamma", "mu", "h"))
         )
         return replace(self.least, alpha=alpha, gamma=gamma, mu=mu, h=h)
+
+
+@dataclass(frozen=True)
+class SwitchedDesign:
+    """A design with digraphs to switch among: at each sample one of them, or a convex combination, holds.
+
+    Attributes
+    ----------
+    first : Design
+        With the first digraph, and the least mu where mu is an interval.
+    graphs : tuple of Digraph
+        1 to 64 of them, on the same agents, the first included.
+    mu : Interval or None
+        mu where the file gives it, an interval of one number where that is certain.
+    """
+
+    first: Design
+    graphs: tuple[Digraph, ...]
+    mu: Interval | None
+
+    def with_graph(self, i: int) -> Design:
+        """The design that keeps to one digraph."""
+        return replace(self.first, graph=self.graphs[i])

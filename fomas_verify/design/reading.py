@@ -9,20 +9,23 @@ from os import PathLike
 from pathlib import Path
 from typing import Final
 
-from fomas_verify.design.claim_ids import CLAIM_IDS, DEFAULT_REQUIRE
+from fomas_verify.design.claim_ids import CLAIM_IDS, DEFAULT_REQUIRE, SWITCHED_CLAIM_IDS, SWITCHED_REQUIRE
 from fomas_verify.design.document import Format, format_of, parse_document, read_text, source_name
 from fomas_verify.design.errors import DesignError
 from fomas_verify.design.fields import Place, choice, count, number, positive, sequence, shown, table
 from fomas_verify.design.graph_table import read_graph
-from fomas_verify.design.model import Design, State, UncertainDesign
+from fomas_verify.design.model import Design, State, SwitchedDesign, UncertainDesign
 from fomas_verify.enclosure.interval import Interval
+from fomas_verify.network import Digraph
 
 FORMAT: Final = "fomas-design/1"
 MAX_HORIZON: Final = 10**9
 MAX_NAME: Final = 200
+MAX_GRAPHS: Final = 64
 
-_KEYS = ("name", "alpha", "gamma", "mu", "h", "x0", "horizon", "settle_to", "graph", "gate", "format")
-_UNSUPPORTED = ("graphs", "limits")
+_KEYS = ("name", "alpha", "gamma", "mu", "h", "x0", "horizon", "settle_to", "graph", "gate", "format", "graphs")
+_UNSUPPORTED = ("limits",)
+_NOT_SWITCHED = ("x0", "horizon", "settle_to", "limits")
 _ALPHA_LIMIT = 2**64
 
 
@@ -53,6 +56,13 @@ def read_any(path: str | PathLike[str]) -> Design | UncertainDesign:
     text = read_text(path)
     source = source_name(path)
     return any_from_mapping(parse_document(text, format_of(path, text), source), source)
+
+
+def read_named(path: str | PathLike[str]) -> Design | UncertainDesign | SwitchedDesign:
+    """Read a design file that may have [[graphs]] in place of [graph]; otherwise as `read_any`."""
+    text = read_text(path)
+    source = source_name(path)
+    return named_from_mapping(parse_document(text, format_of(path, text), source), source)
 
 
 def parse_design(text: str, format_: Format, source: str) -> Design:
@@ -96,6 +106,17 @@ def design_from_mapping(mapping: Mapping[str, object], source: str = "design") -
 
 def any_from_mapping(mapping: Mapping[str, object], source: str = "design") -> Design | UncertainDesign:
     """Read a design in which alpha, gamma, mu and h may be intervals; otherwise as `design_from_mapping`."""
+    found = named_from_mapping(mapping, source)
+    if isinstance(found, SwitchedDesign):
+        where = Place(source).key("graphs")
+        raise DesignError(f"{where}: expected one [graph]: only prove, check, region and gate take [[graphs]]")
+    return found
+
+
+def named_from_mapping(
+    mapping: Mapping[str, object], source: str = "design"
+) -> Design | UncertainDesign | SwitchedDesign:
+    """Read a design that may have graphs in place of graph; otherwise as `any_from_mapping`."""
     place = Place(source)
     top = table(mapping, place, (*_KEYS, *_UNSUPPORTED))
     for key in _UNSUPPORTED:
@@ -112,9 +133,8 @@ def any_from_mapping(mapping: Mapping[str, object], source: str = "design") -> D
     for key in ("horizon", "settle_to"):
         if ranges and key in top:
             raise place.key(key).unsupported(f"with an interval for {next(iter(ranges))} this key is")
-    if "graph" not in top:
-        raise place.key("graph").expected("a table", None)
-    graph = read_graph(top["graph"], place.key("graph"))
+    graphs = _graphs(top, place, ranges)
+    graph = graphs[0]
     least = {key: x.lower for key, x in numbers.items()}
     design = Design(
         name=_name(top, place),
@@ -126,11 +146,36 @@ def any_from_mapping(mapping: Mapping[str, object], source: str = "design") -> D
         x0=_initial_state(top["x0"], place.key("x0"), graph.agents) if "x0" in top else None,
         horizon=count(top["horizon"], place.key("horizon"), 0, MAX_HORIZON) if "horizon" in top else None,
         settle_to=_settle_to(top["settle_to"], place.key("settle_to")) if "settle_to" in top else None,
-        require=_require(top, place) if "gate" in top else DEFAULT_REQUIRE,
+        require=_require(top, place),
         source=source,
         notes=_notes(top),
     )
+    if "graphs" in top:
+        return SwitchedDesign(design, graphs, numbers.get("mu"))
     return UncertainDesign(design, ranges) if ranges else design
+
+
+def _graphs(top: Mapping[str, object], place: Place, ranges: Mapping[str, Interval]) -> tuple[Digraph, ...]:
+    """The digraph, or the digraphs to switch among."""
+    if "graphs" not in top:
+        if "graph" not in top:
+            raise place.key("graph").expected("a table", None)
+        return (read_graph(top["graph"], place.key("graph")),)
+    where = place.key("graphs")
+    if "graph" in top:
+        raise DesignError(f"{where}: expected either graph or graphs, got both")
+    for key in (*_NOT_SWITCHED, *(key for key in ranges if key != "mu")):
+        if key in top:
+            what = "an interval is" if key in ranges else "this key is"
+            raise place.key(key).unsupported(f"with [[graphs]] {what}")
+    entries = sequence(top["graphs"], where, "a list of tables")
+    if not 1 <= len(entries) <= MAX_GRAPHS:
+        raise where.expected(f"1 to {MAX_GRAPHS} graphs", entries)
+    graphs = [read_graph(entry, where.item(i)) for i, entry in enumerate(entries)]
+    for i, graph in enumerate(graphs):
+        if graph.agents != graphs[0].agents:
+            raise DesignError(f"{where.item(i)}: expected {graphs[0].agents} agents as before, got {graph.agents}")
+    return tuple(graphs)
 
 
 def _number_or_interval(value: object, place: Place, read: Callable[[object, Place], Fraction]) -> Interval:
@@ -186,16 +231,17 @@ def _settle_to(value: object, place: Place) -> Fraction:
 
 
 def _require(top: Mapping[str, object], place: Place) -> tuple[str, ...]:
-    gate = table(top["gate"], place.key("gate"), ("require",))
+    known, default = (SWITCHED_CLAIM_IDS, SWITCHED_REQUIRE) if "graphs" in top else (CLAIM_IDS, DEFAULT_REQUIRE)
+    gate = table(top.get("gate", {}), place.key("gate"), ("require",))
     if "require" not in gate:
-        return DEFAULT_REQUIRE
+        return default
     where = place.key("gate").key("require")
     entries = sequence(gate["require"], where, "a list of claim ids")
     if not entries:
         raise where.expected("at least one claim id", entries)
     required: list[str] = []
     for i, entry in enumerate(entries):
-        claim = choice(entry, where.item(i), "a claim id", CLAIM_IDS)
+        claim = choice(entry, where.item(i), "a claim id", known)
         if claim == "trajectory-norm-bound" and "x0" not in top:
             raise DesignError(f"{where.item(i)}: expected a design with x0, which {claim} is about; got no x0")
         if claim in required:

@@ -41,8 +41,9 @@ def shrunk_margins(path: Path, required: Iterable[str], certificate: str, loss: 
     Yields
     ------
     Finding
-        For each margin that lost more, for a design that has intervals now and so no margins, and where the baseline's
-        certificate is none. Nothing where it holds no margin of the claim, which then was not true before.
+        For each margin that lost more, for a design that has intervals or several graphs now and so no margins, and
+        where the baseline's certificate is none. Nothing where it holds no margin of the claim, which then was not true
+        before.
     """
     try:
         with path.open("rb") as file:
@@ -59,8 +60,10 @@ def shrunk_margins(path: Path, required: Iterable[str], certificate: str, loss: 
         )
         return
     former, present = json.loads(data), json.loads(certificate)
-    if "margins" in former["values"] and any(isinstance(x, list) for x in map(present["design"].get, NUMBERS)):
-        words = "margins cannot be compared with the baseline's: the design has an interval"
+    several = [key for key in (*NUMBERS, "graphs") if isinstance(present["design"].get(key), list)]
+    if "margins" in former["values"] and several:
+        what = "several graphs" if "graphs" in several else "an interval"
+        words = f"margins cannot be compared with the baseline's: the design has {what}"
         yield Finding(SHRUNK, "", FALSE, words)
         return
     for claim in dict.fromkeys(EQUIVALENT.get(name, name) for name in required):

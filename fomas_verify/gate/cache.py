@@ -12,13 +12,13 @@ from typing import Final
 from urllib.parse import quote
 
 from fomas_verify.certificate.document import FORMAT, design_object
-from fomas_verify.design import Design, UncertainDesign
+from fomas_verify.design import Design, SwitchedDesign, UncertainDesign
 
 LARGEST: Final = 64 * 2**20
 _LONGEST_NAME: Final = 200
 
 
-def cache_key(design: Design | UncertainDesign, horizon: int | None, *, margins: bool) -> str:
+def cache_key(design: Design | UncertainDesign | SwitchedDesign, horizon: int | None, *, margins: bool) -> str:
     """What the certificate of a design depends on, in 64 hexadecimal digits."""
     from importlib.metadata import version
 

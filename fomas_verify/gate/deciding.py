@@ -17,7 +17,7 @@ from typing import Final
 from fomas_verify.certificate.document import design_object
 from fomas_verify.checker import Malformed, Report, check
 from fomas_verify.claims.verdict import Decision
-from fomas_verify.design import Design, DesignError, UncertainDesign, read_any
+from fomas_verify.design import SWITCHED_CLAIM_IDS, Design, DesignError, SwitchedDesign, UncertainDesign, read_named
 from fomas_verify.design.document import format_of, read_text, source_name
 from fomas_verify.exact.errors import FomasError
 from fomas_verify.gate.baseline import shrunk_margins
@@ -37,7 +37,7 @@ from fomas_verify.gate.model import (
 from fomas_verify.gate.positions import position_of, position_of_error
 from fomas_verify.prover import prove, prove_uncertain
 
-Named = Design | UncertainDesign
+Named = Design | UncertainDesign | SwitchedDesign
 
 OWN: Final = "design"
 """Stands among required claims for those that the design itself requires."""
@@ -97,7 +97,7 @@ def decide(path: Path, options: Options) -> Result:
     source = source_name(path)
     answer = Result(source, str(path))
     try:
-        named = _requiring(read_any(path), options.require)
+        named = _requiring(read_named(path), options.require)
         answer = replace(answer, name=_plain(named).name, required=_plain(named).require)
         return _decided(named, answer, options)
     except FomasError as error:
@@ -112,7 +112,9 @@ def decide(path: Path, options: Options) -> Result:
 
 
 def _plain(named: Named) -> Design:
-    """What the members of an uncertain design have in common, and where each interval begins."""
+    """What the members of an uncertain design have in common, and where each interval begins; the first graph."""
+    if isinstance(named, SwitchedDesign):
+        return named.first
     return named.least if isinstance(named, UncertainDesign) else named
 
 
@@ -122,6 +124,11 @@ def _requiring(named: Named, require: tuple[str, ...]) -> Named:
     if "trajectory-norm-bound" in names:
         design.needs("x0", command="trajectory-norm-bound")
     design = replace(design, require=tuple(names))
+    if isinstance(named, SwitchedDesign):
+        for name in names:
+            if name not in SWITCHED_CLAIM_IDS:
+                raise DesignError(f"{design.source}: graphs: {name} is no claim about [[graphs]]")
+        return replace(named, first=design)
     return replace(named, least=design) if isinstance(named, UncertainDesign) else design
 
 
@@ -146,13 +153,18 @@ def _decided(named: Named, answer: Result, options: Options) -> Result:
         else:
             reason = f"no certificate of {answer.name!r} in the baseline: a new design needs --new-ok, or {former_file}"
             findings.append(Finding(NEW, "", WRONG_INPUT, reason))
-    return replace(answer, findings=tuple(_placed(Path(answer.path), _plain(named), findings)))
+    return replace(answer, findings=tuple(_placed(Path(answer.path), named, findings)))
 
 
 def _proved(named: Named, options: Options) -> tuple[str, Mapping[str, Decision]]:
     if isinstance(named, UncertainDesign):
         uncertain = prove_uncertain(named)
         return uncertain.certificate(), uncertain.decisions
+    if isinstance(named, SwitchedDesign):
+        from fomas_verify.region.switching import prove_switched
+
+        switched = prove_switched(named)
+        return switched.certificate(), switched.decisions
     proof = prove(named, only=None if options.margins else named.require)
     return proof.certificate(), proof.decisions
 
@@ -190,15 +202,16 @@ def _findings(report: Report, required: tuple[str, ...], decisions: Mapping[str,
             yield Finding(LIMIT, "undecided", UNDECIDED, f"{outcome.id}: {outcome.reason}")
 
 
-def _placed(path: Path, design: Design, findings: list[Finding]) -> Iterator[Finding]:
+def _placed(path: Path, named: Named, findings: list[Finding]) -> Iterator[Finding]:
     """Each finding at the key to change: the graph, the gain, or the name."""
     if not findings:
         return
     text = _text(path)
-    gain = "mu" if design.mu is not None else "gamma"
+    gain = "mu" if _plain(named).mu is not None else "gamma"
+    graphs = "graphs" if isinstance(named, SwitchedDesign) else "graph"
     for finding in findings:
         graph = finding.rule in _ABOUT_THE_GRAPH or finding.outcome == "inapplicable"
-        key = "name" if finding.rule == NEW else "graph" if graph else gain
+        key = "name" if finding.rule == NEW else graphs if graph else gain
         yield replace(finding, position=position_of(text, format_of(path, text), (key,)))
 
 

@@ -9,3 +9,9 @@ class UndecidedRegionError(FomasError):
     """A condition's interval was not decided, or not to be sought, within the work allowed."""
 
     exit_status = 3
+
+
+class NoDesignError(FomasError):
+    """It is proved that no design does what was asked for; one line."""
+
+    exit_status = 1

@@ -18,6 +18,9 @@ from fomas_verify.spectrum.contraction import directions, last
 from fomas_verify.spectrum.loop import Loop, sigma_at
 
 BITS, VECTOR_BITS = 64, (12, 16, 24, 32, 48, 64)
+MOST_PAIRS = 64
+"""As many as a certificate takes."""
+
 MOST_STEPS = 60
 CLOSE = Fraction(1, 1 << 64)
 """How near the two bounds of the least factor come, unless that takes more steps."""
@@ -132,6 +135,16 @@ def _scaled(pair: Pair, weight: Fraction, bits: int) -> Pair:
     square = weight * (1 << 4 * bits + 2 * BITS) / exact.norm_squared(pair[1])
     factor = Fraction(isqrt(int(square)), 1 << bits + BITS)
     return _integers(pair[0], factor), _integers(pair[1], factor)
+
+
+def integer_pairs(pairs: list[Pair], bits: int) -> list[Pair]:
+    """The pairs, all by the same factor, rounded to integers of about so many bits that sum to 0."""
+    largest = max((abs(x) for pair in pairs for vector in pair for x in vector), default=Fraction(0))
+    if largest == 0:
+        return []
+    factor = (1 << bits) / largest
+    rounded = [(_integers(u, factor), _integers(v, factor)) for u, v in pairs]
+    return [(u, v) for u, v in rounded if any(u) or any(v)]
 
 
 def _integers(vector: Vector, factor: Fraction) -> Vector:

@@ -15,6 +15,7 @@ _NAME_PART = 40
 _LOOKED_AT = 1 << 20
 _ALPHA = re.compile(rb'(?:^|[{,\n])\s*"?alpha"?\s*[=:]')
 _GRAPH = re.compile(rb'(?:^|[{,\n])\s*(?:"graphs?"\s*:|graphs?\s*[=.]|\[+\s*graphs?\s*[\].])')
+_CERTIFICATE = re.compile(rb'"format"\s*:\s*"fomas-certificate/')
 
 
 class OutputError(FomasError):
@@ -92,7 +93,8 @@ def _is_a_design(path: Path) -> bool:
         return False
     with path.open("rb") as file:
         start = file.read(_LOOKED_AT)
-    return _ALPHA.search(start) is not None and _GRAPH.search(start) is not None
+    keys = _ALPHA.search(start) is not None and _GRAPH.search(start) is not None
+    return keys and _CERTIFICATE.search(start) is None
 
 
 @contextmanager

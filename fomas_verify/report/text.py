@@ -37,14 +37,19 @@ NAMES = {
 
 def proof_text(proof: Proof) -> str:
     """The verdict table, the values, the spectrum, what a refutation means, and how it ends."""
-    parts = [_heading(proof.design), _verdicts(proof.decisions, proof.design.require), _values(proof), _spectrum(proof)]
+    parts = [
+        _heading(proof.design),
+        verdict_table(proof.decisions, proof.design.require),
+        _values(proof),
+        _spectrum(proof),
+    ]
     if proof.sizes.rate is not None:
         parts.append(_sizes(proof.sizes))
     if proof.margins:
         parts.append(_margins(proof))
     if proof.horizon is not None:
         parts.append(_horizon(proof))
-    parts += [_refutation(name, x) for name, x in proof.decisions.items() if x.verdict is Verdict.REFUTED]
+    parts += [refutation_text(name, x) for name, x in proof.decisions.items() if x.verdict is Verdict.REFUTED]
     parts.append(_ending(proof.decisions, proof.design.require))
     return "\n".join(parts)
 
@@ -59,8 +64,8 @@ def uncertain_text(proof: UncertainProof) -> str:
     width = max(map(len, NAMES.values()))
     ranges = [f"  {NAMES.get(name, name):{width}}  {_range(x)}" for name, x in proof.values.items()]
     parts = ["\n".join([heading, *(f"note: {note}" for note in design.least.notes)]) + "\n"]
-    parts += [_verdicts(proof.decisions, design.least.require), "\n".join(ranges) + "\n"]
-    parts += [_refutation(name, x) for name, x in proof.decisions.items() if x.verdict is Verdict.REFUTED]
+    parts += [verdict_table(proof.decisions, design.least.require), "\n".join(ranges) + "\n"]
+    parts += [refutation_text(name, x) for name, x in proof.decisions.items() if x.verdict is Verdict.REFUTED]
     parts.append(_ending(proof.decisions, design.least.require))
     return "\n".join(parts)
 
@@ -84,7 +89,8 @@ def _heading(design: Design) -> str:
     return "\n".join(lines + [f"note: {note}" for note in design.notes]) + "\n"
 
 
-def _verdicts(decisions: Mapping[str, Decision], require: Sequence[str]) -> str:
+def verdict_table(decisions: Mapping[str, Decision], require: Sequence[str]) -> str:
+    """A paragraph for each claim: whether it is required, its verdict, the numbers that decide."""
     lines = []
     for name, decision in decisions.items():
         mark = "*" if name in require else " "
@@ -214,7 +220,8 @@ def held(seen: Horizon) -> str:
     return f"first fails at k = {seen.first_failure}"
 
 
-def _refutation(name: str, decision: Decision) -> str:
+def refutation_text(name: str, decision: Decision) -> str:
+    """What the refutation of a claim means, the counterexample and the remedy."""
     lines = [f"{name} is refuted: {decision.meaning}"]
     lines += [f"counterexample: {text}" for text in [_counterexample(decision)] if text]
     lines += [f"remedy: {decision.remedy}"]
@@ -244,10 +251,11 @@ def _ending(decisions: Mapping[str, Decision], require: Sequence[str]) -> str:
     lines = textwrap.wrap(
         f"Coq theorems behind them: {', '.join(rests)}", WIDTH, subsequent_indent="  ", break_on_hyphens=False
     )
-    return "\n".join([*lines, "", _verdict(decisions, require)])
+    return "\n".join([*lines, "", closing_line(decisions, require)])
 
 
-def _verdict(decisions: Mapping[str, Decision], require: Sequence[str]) -> str:
+def closing_line(decisions: Mapping[str, Decision], require: Sequence[str]) -> str:
+    """Whether all that is required is proved."""
     required = {name: decisions[name].verdict for name in require}
     if all(verdict is Verdict.PROVED for verdict in required.values()):
         return f"All {len(required)} required claims are proved."

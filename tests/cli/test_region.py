@@ -136,3 +136,12 @@ def test_a_design_that_is_refused(verify: Verify, tmp_path: Path, text: str, mes
     assert (run.returncode, run.stdout) == (2, "")
     assert message in run.stderr
     assert run.stderr.count("\n") == 1
+
+
+def test_the_lmi_confirms_and_changes_nothing(verify: Verify, tmp_path: Path) -> None:
+    direct, lmi = tmp_path / "direct.json", tmp_path / "lmi.json"
+    without = verify("region", PAPER, "--json", "-o", direct)
+    confirmed = verify("region", PAPER, "--json", "-o", lmi, "--solver", "lmi")
+    assert (confirmed.returncode, confirmed.stdout) == (without.returncode, without.stdout)
+    assert confirmed.stderr == "the LMI agrees: least sigma, least mu, greatest mu\n"
+    assert lmi.read_bytes() == direct.read_bytes()

@@ -22,7 +22,8 @@ from fomas_verify.checker.document import read_document
 from fomas_verify.cli.init import NAME, TEMPLATE
 from fomas_verify.design import DesignError
 from fomas_verify.design.document import Number, format_of, parse_document, read_text
-from fomas_verify.design.reading import any_from_mapping
+from fomas_verify.design.reading import named_from_mapping
+from tests.checker import switched
 
 ROOT = Path(__file__).resolve().parents[2]
 CORPUS = ROOT / "tests" / "corpus"
@@ -41,6 +42,7 @@ UNSAYABLE_OF_DESIGNS = [
     r"edges\[\d+\]\[[01]\]: expected an integer >= 1 and <= \d+",
     r"agents: expected \d+, as the shape says",
     r"(agents|shape): .* agents, more than 10000, are not supported yet",
+    r"graphs\[\d+\]: expected \d+ agents as before",
     # the value of a fraction in a string, and bits
     r"(alpha|settle_to)(\[[01]\])?: expected a number between 0 and 1, both excluded, got ('|\")",
     r"\[1\]: expected a number above ",
@@ -53,7 +55,7 @@ UNSAYABLE_OF_DESIGNS = [
     r"name: expected a text of 1 to 200 printable characters",
 ]
 UNSAYABLE_OF_CERTIFICATES = [
-    r"expected an array of \d+( rationals)?,",
+    r"expected an array of \d+( rationals| matrices)?,",
     r"expected a lower triangle of \d+ rows",
     r"expected an array of \d+ rationals",
     r"a self-loop$",
@@ -96,7 +98,7 @@ def design_refusal(document: object) -> str:
                 return value
 
     try:
-        any_from_mapping(written(document), "d")
+        named_from_mapping(written(document), "d")
     except DesignError as error:
         return str(error)
     return ""
@@ -155,6 +157,12 @@ MORE = [
         "graph": {"family": "path", "agents": 2},
         "x0": [1, 2],
         "gate": {"require": ["trajectory-norm-bound"]},
+    },
+    {
+        "alpha": "0.5",
+        "mu": [1, 2],
+        "graphs": [{"family": "path", "agents": 2}, {"agents": 2, "edges": [[1, 2]]}],
+        "gate": {"require": ["gain-bound"]},
     },
 ]
 BASES = [*GOOD.values(), *MORE, tomllib.loads(TEMPLATE.format(name=NAME), parse_float=decimal)]
@@ -303,10 +311,40 @@ def test_mutants_of_certificates() -> None:
         "margins",
         "rate",
         "samples",
+        "graphs",
+        "graph",
+        "solver",
+        "Z",
     ]
     accepted = 0
     for _ in range(MUTANTS):
         document = mutated(source.choice(bases), source, keys, VALUES)
+        agree_on_certificate(document)
+        accepted += not certificate_refusal(document)
+    assert 0.02 * MUTANTS < accepted < 0.9 * MUTANTS
+
+
+SWITCHED = [
+    switched.proved(),
+    switched.slow(),
+    switched.undecided(),
+    switched.region_by_dual(),
+    switched.region_by_graph(),
+]
+
+
+@pytest.mark.parametrize("document", SWITCHED)
+def test_both_accept_a_certificate_about_graphs_to_switch_among(document: dict[str, Any]) -> None:
+    assert certificate_refusal(document) == ""
+    CERTIFICATES.validate(document)
+
+
+def test_mutants_of_certificates_about_graphs_to_switch_among() -> None:
+    source = random.Random(3)
+    keys = ["edges", "graphs", "graph", "mu", "gamma", "h", "Q", "Z", "Y", "power", "solver", "rate", "outer", "bits"]
+    accepted = 0
+    for _ in range(MUTANTS):
+        document = mutated(source.choice(SWITCHED), source, keys, VALUES)
         agree_on_certificate(document)
         accepted += not certificate_refusal(document)
     assert 0.02 * MUTANTS < accepted < 0.9 * MUTANTS
