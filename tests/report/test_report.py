@@ -44,12 +44,14 @@ def flat(text: str) -> str:
 
 
 @pytest.mark.usefixtures("quick")
+@pytest.mark.parametrize("name", ["paper", "repaired"])
 def test_committed_report_is_what_the_command_makes(
-    checkout: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    name: str, checkout: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(checkout)
-    write_report(prove(read_design("examples/paper.toml")), tmp_path, command=COMMAND)
-    committed = {p.name: p.read_bytes() for p in (checkout / "reports/paper").iterdir() if p.suffix != ".pdf"}
+    command = f"verify-design report examples/{name}.toml -o reports/{name}"
+    write_report(prove(read_design(f"examples/{name}.toml")), tmp_path, command=command)
+    committed = {p.name: p.read_bytes() for p in (checkout / "reports" / name).iterdir() if p.suffix != ".pdf"}
     assert {p.name: p.read_bytes() for p in tmp_path.iterdir()} == committed
     assert set(committed) == {"report.tex", "certificate.json", "memory-inequality.csv"}
 
