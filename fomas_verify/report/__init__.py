@@ -54,14 +54,13 @@ def write_report(proof: Proof, folder: Path, *, command: str) -> ReportFiles:
     """
     from fomas_verify.report.checked import checked
     from fomas_verify.report.compilation import compile_latex
-    from fomas_verify.report.memory_figure import FILE
     from fomas_verify.report.model import report_model
     from fomas_verify.report.rendering import render
 
     certificate = proof.certificate()
     model = report_model(proof, certificate, checked(certificate), command)
     source = render(model)
-    data = {FILE: model.memory.csv()} if model.memory else {}
+    data = {table.file: table.csv() for table in model.tables}
     make_folder(folder)
     compiled = compile_latex(source, data)
     tex, json, pdf = (folder / name for name in ("report.tex", "certificate.json", "report.pdf"))

@@ -6,13 +6,17 @@ In a template ``<< x >>`` prints x: `Tex` as it is, everything else escaped. ``<
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
-from fomas_verify.exact.errors import FomasError
 from fomas_verify.report.latex_text import Tex, escape, escape_code
 from fomas_verify.report.math_text import capital, digits, rational, vector
+from fomas_verify.report.missing import MissingExtraError
 from fomas_verify.report.model import ReportModel
+from fomas_verify.report.picture import Picture
+from fomas_verify.report.plot import Plot
+from fomas_verify.report.plot_latex import latex_plot
 
 if TYPE_CHECKING:
     from jinja2 import Environment
@@ -28,10 +32,6 @@ _SYMBOLS = (
 )
 
 
-class MissingExtraError(FomasError):
-    """A library of an extra is not installed."""
-
-
 def render(model: ReportModel) -> str:
     """The LaTeX document, ASCII.
 
@@ -40,7 +40,16 @@ def render(model: ReportModel) -> str:
     MissingExtraError
         jinja2 is not installed.
     """
-    return _environment().get_template("report.tex").render(m=model, n=model.numbers, r=model.relations)
+    figures = {name: _latex_figure(figure) for name, figure in model.figures.items()}
+    return _filled("report.tex", model, figures)
+
+
+def _filled(template: str, model: ReportModel, figures: Mapping[str, Tex]) -> str:
+    return _environment().get_template(template).render(m=model, n=model.numbers, r=model.relations, figures=figures)
+
+
+def _latex_figure(figure: Picture | Plot) -> Tex:
+    return figure.tikz() if isinstance(figure, Picture) else latex_plot(figure)
 
 
 @cache
