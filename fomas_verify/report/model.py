@@ -15,6 +15,7 @@ from fomas_verify.enclosure.interval import Interval
 from fomas_verify.kernel.memory import second_difference, step_response
 from fomas_verify.kernel.table import Row, kernel_rows
 from fomas_verify.network import is_symmetric
+from fomas_verify.network.matrices import adjacency
 from fomas_verify.prover import Proof
 from fomas_verify.report.checked import Checked
 from fomas_verify.report.claim_view import Change, ClaimView, changes, claim_views
@@ -22,7 +23,7 @@ from fomas_verify.report.closed_forms import ClosedForm, closed_forms
 from fomas_verify.report.graph_drawing import draw_graph, one_weight, shows_weights
 from fomas_verify.report.latex_text import Tex
 from fomas_verify.report.margin_view import binding, margin_lines
-from fomas_verify.report.math_text import sentence
+from fomas_verify.report.math_text import rational, sentence
 from fomas_verify.report.memory_figure import MemoryFigure, memory_figure
 from fomas_verify.report.picture import Picture
 from fomas_verify.report.plot import Plot, Table
@@ -33,6 +34,7 @@ from fomas_verify.spectrum.loop import Loop
 from fomas_verify.spectrum.stability import mu_star
 
 BITS = 128
+LARGEST_MATRIX = 10
 KERNEL_ROWS, KERNEL_DIGITS = (1, 2, 3, 4, 5, 10, 20, 50, 100, 1000), 12
 _RELATIONS = {-1: "<", 0: "=", 1: ">"}
 UNKNOWN = r"\overset{?}{=}"
@@ -91,6 +93,7 @@ class ReportModel:
     simulation: SimulationView | None
     margins: tuple[tuple[str, Tex], ...]
     binding: Tex
+    adjacency: Tex | None
     proof: Proof
     reproduction: Reproduction
 
@@ -110,6 +113,16 @@ class ReportModel:
         if (seen := self.simulation) is not None:
             found |= {"states": seen.states, "distance": seen.distance, "control": seen.control}
         return {name: figure for name, figure in found.items() if figure is not None}
+
+    @property
+    def sizes(self) -> dict[str, Interval]:
+        """The numbers that a comparison shows; what does not exist for the design is absent."""
+        found, sizes = dict(self.numbers), self.proof.sizes
+        if sizes.peak is not None:
+            found["peak"] = sizes.peak.value
+        if sizes.rate is not None:
+            found |= {"kappa": Interval.exactly(sizes.rate.kappa), "rho": Interval.exactly(sizes.rate.rho)}
+        return found
 
     @property
     def required(self) -> tuple[ClaimView, ...]:
@@ -143,6 +156,7 @@ def report_model(proof: Proof, certificate: str, answer: Checked, command: str) 
         simulation=simulation_view(proof),
         margins=tuple((name, sentence(words)) for name, words in margin_lines(proof)),
         binding=sentence(binding(proof)),
+        adjacency=_adjacency(design),
         proof=proof,
         reproduction=_reproduction(design, certificate, answer, command),
     )
@@ -171,6 +185,13 @@ def _numbers(loop: Loop) -> dict[str, Interval]:
         found |= {"gap": loop.threshold(256) - loop.beta(256), "sigma_gap": found["sigma"] - found["threshold"]}
         found |= {"left0": beta + found["f1"], "left1": beta * beta + (1 - found["c2"])}
     return found
+
+
+def _adjacency(design: Design) -> Tex | None:
+    """The rows of A for a matrix; None where it is too large to print."""
+    if design.graph.agents > LARGEST_MATRIX:
+        return None
+    return Tex(r"\\".join("&".join(rational(x) for x in row) for row in adjacency(design.graph)))
 
 
 def _relations(proof: Proof) -> dict[str, Tex]:

@@ -97,20 +97,21 @@ class Picture:
         lines = [_TIKZ[type(shape)](shape) for shape in self.shapes]
         return Tex(f"\\begin{{tikzpicture}}[{self.style}]\n" + "\n".join(lines) + "\n\\end{tikzpicture}")
 
-    def svg(self) -> str:
-        """The drawing as an SVG element that scales with its surroundings."""
+    def svg(self, key: str) -> str:
+        """The drawing as an SVG element that scales with its surroundings; ``key`` tells its names from others'."""
         corners = [corner for shape in self.shapes for corner in _extent(shape)]
         xs, ys = [x for x, _ in corners], [y for _, y in corners]
         left, top, pad = min(xs), -max(ys), Fraction(1, 5)
         width, height = max(xs) - left + 2 * pad, -min(ys) - top + 2 * pad
         box = " ".join(number(x * PIXELS) for x in (left - pad, top - pad, width, height))
         shapes = "".join(_SVG[type(shape)](shape) for shape in self.shapes)
+        drawn = (_HEADS + shapes).replace("head-", f"head-{key}")
         size = f'style="width:{number(width * PIXELS)}px"'
-        return f'<svg viewBox="{box}" {size} role="img" aria-label="{html.escape(self.title)}">{_HEADS}{shapes}</svg>'
+        return f'<svg viewBox="{box}" {size} role="img" aria-label="{html.escape(self.title)}">{drawn}</svg>'
 
 
 _HEADS = (
-    '<defs><marker id="head" viewBox="0 0 10 10" refX="9" refY="5" markerWidth="7" markerHeight="7" '
+    '<defs><marker id="head-" viewBox="0 0 10 10" refX="9" refY="5" markerWidth="7" markerHeight="7" '
     'orient="auto-start-reverse"><path d="M0 1 10 5 0 9z"/></marker></defs>'
 )
 
@@ -206,8 +207,8 @@ def _svg_arrow(shape: Arrow) -> str:
         away = math.hypot(control[0] - x, control[1] - y)
         ends.append((x + (control[0] - x) * _radius(agent) / away, y + (control[1] - y) * _radius(agent) / away))
     (a, b), (c, d), (e, f) = (_xy((Fraction(x), Fraction(y))) for x, y in (ends[0], control, ends[1]))
-    start = ' marker-start="url(#head)"' if shape.both else ""
-    line = f'<path d="M{a} {b}Q{c} {d} {e} {f}" class="line"{start} marker-end="url(#head)"/>'
+    start = ' marker-start="url(#head-)"' if shape.both else ""
+    line = f'<path d="M{a} {b}Q{c} {d} {e} {f}" class="line"{start} marker-end="url(#head-)"/>'
     if not shape.label:
         return line
     t = 0.36
@@ -242,7 +243,7 @@ def _svg_box(shape: Box) -> str:
 
 def _look(style: str) -> str:
     dash = f' stroke-dasharray="{_DASHES[style]}"' if style in _DASHES else ""
-    return f'{dash} stroke-width="{_WIDTHS.get(style, 1.2)}"' + (' opacity="0.4"' if style == "axis" else "")
+    return f'{dash} style="stroke-width:{_WIDTHS.get(style, 1.2)}"' + (' opacity="0.4"' if style == "axis" else "")
 
 
 _SVG: dict[type, Callable[..., str]] = {

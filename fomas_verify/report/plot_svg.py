@@ -17,16 +17,16 @@ _LEFT, _RIGHT, _TOP, _BOTTOM, _WIDTH, _HEIGHT = 58, 12, 8, 40, 420, 260
 _TICKS = 6
 
 
-def svg_plot(plot: Plot, title: str) -> str:
-    """The diagram as an SVG element that scales with its surroundings; its legend stands outside."""
+def svg_plot(plot: Plot, key: str) -> str:
+    """The diagram as an SVG element that scales with its surroundings, without its legend; ``key`` is its name."""
     x, y = (
         _scale(plot.x_range, plot.x_log, _LEFT, _WIDTH - _RIGHT),
         _scale(plot.y_range, plot.y_log, _HEIGHT - _BOTTOM, _TOP),
     )
-    parts = [*_axes(plot, x, y), '<g clip-path="url(#inside)">', *_drawn(plot, x, y), "</g>"]
+    parts = [*_axes(plot, x, y), f'<g clip-path="url(#inside-{key})">', *_drawn(plot, x, y), "</g>"]
     return (
-        f'<svg viewBox="0 0 {_WIDTH} {_HEIGHT}" role="img" aria-label="{html.escape(title)}">'
-        f'<defs><clipPath id="inside"><rect x="{_LEFT}" y="{_TOP}" width="{_WIDTH - _LEFT - _RIGHT}" '
+        f'<svg viewBox="0 0 {_WIDTH} {_HEIGHT}" role="img" aria-label="{key}">'
+        f'<defs><clipPath id="inside-{key}"><rect x="{_LEFT}" y="{_TOP}" width="{_WIDTH - _LEFT - _RIGHT}" '
         f'height="{_HEIGHT - _TOP - _BOTTOM}"/></clipPath></defs>{"".join(parts)}</svg>'
     )
 
