@@ -11,24 +11,48 @@ from fomas_verify.cli.options import digits_option
 from fomas_verify.design import read_design
 from fomas_verify.prover import prove
 
+MOST_COMPARED = 4
+
 
 @click.command("report")
-@click.argument("design", type=click.Path(path_type=Path), metavar="DESIGN")
+@click.argument("designs", type=click.Path(path_type=Path), metavar="DESIGN...", nargs=-1, required=True)
 @click.option(
     "-o", "--output", type=click.Path(path_type=Path), default=Path("report"), show_default=True, metavar="DIR"
 )
+@click.option(
+    "--format", "form", type=click.Choice(["latex", "html", "md"]), default="latex", show_default=True,
+    help="LaTeX and PDF, one HTML page that needs nothing else, or Markdown for a pull request",
+)  # fmt: skip
+@click.option("--brief", is_flag=True, help="one page")
+@click.option("--theorem", is_flag=True, help="the corrected theorem and the counterexample, as a LaTeX fragment")
 @digits_option
-def command(design: Path, output: Path, digits: int) -> int:
-    """Write the LaTeX report of DESIGN into DIR, and its PDF where a LaTeX is at hand.
+def command(designs: tuple[Path, ...], output: Path, form: str, digits: int, *, brief: bool, theorem: bool) -> int:
+    """Write the report of DESIGN into DIR, or the comparison of several, and its PDF where a LaTeX is at hand.
 
     \b
     Example:  verify-design report examples/paper.toml -o reports/paper
+              verify-design report examples/paper.toml examples/repaired.toml -o comparison --format html
     """
+    _must_go_together(len(designs), form, brief=brief, theorem=theorem)
     from fomas_verify.report import write_report
 
-    parts = ["verify-design", "report", design.as_posix(), "-o", output.as_posix()]
+    parts = ["verify-design", "report", *(design.as_posix() for design in designs), "-o", output.as_posix()]
+    parts += ["--format", form] if form != "latex" else []
+    parts += ["--brief"] if brief else []
+    parts += ["--theorem"] if theorem else []
     parts += ["--digits", str(digits)] if digits != 50 else []
-    files = write_report(prove(read_design(design), digits=digits), output, command=shlex.join(parts))
+    proofs = [prove(read_design(design), digits=digits) for design in designs]
+    written = "theorem" if theorem else form
+    files = write_report(proofs, output, command=shlex.join(parts), form=written, brief=brief)
     for line in files.lines():
         click.echo(line)
     return 0
+
+
+def _must_go_together(count: int, form: str, *, brief: bool, theorem: bool) -> None:
+    if count > MOST_COMPARED:
+        raise click.UsageError(f"a comparison has at most {MOST_COMPARED} designs, got {count}")
+    if count > 1 and (brief or theorem):
+        raise click.UsageError("--brief and --theorem are about one design")
+    if theorem and (brief or form != "latex"):
+        raise click.UsageError("--theorem is a fragment of its own: leave out --brief and --format")

@@ -1,7 +1,4 @@
-"""The digraph as TikZ: agents on a circle, an arrow from the agent heard to its hearer; larger ones as a pattern of A.
-
-Coordinates are angles and rational numbers only, so the drawing is the same on every machine.
-"""
+"""The digraph: agents on a circle, an arrow from the agent heard to its hearer; larger ones as a pattern of A."""
 
 from __future__ import annotations
 
@@ -11,8 +8,8 @@ from fractions import Fraction
 from fomas_verify.enclosure.digits import decimal
 from fomas_verify.enclosure.interval import Interval
 from fomas_verify.network import Digraph
-from fomas_verify.report.latex_text import Tex
 from fomas_verify.report.math_text import math_number
+from fomas_verify.report.picture import Agent, Arrow, Box, Picture, Shape, on_circle
 
 MOST_AGENTS_DRAWN = 30
 MOST_WEIGHTS_SHOWN = 30
@@ -21,13 +18,14 @@ MOST_EDGES_PATTERN = 4000
 _PATTERN_SIZE = Fraction(56, 10)
 
 
-def draw_graph(graph: Digraph) -> Tex | None:
+def draw_graph(graph: Digraph) -> Picture | None:
     """A picture of the graph; None where it would not be one."""
     if graph.agents <= MOST_AGENTS_DRAWN:
-        lines = [*_nodes(graph.agents), *_arrows(graph)]
-        return Tex("\\begin{tikzpicture}[fomas graph]\n" + "\n".join(lines) + "\n\\end{tikzpicture}")
+        agents = _agents(graph.agents)
+        shapes: list[Shape] = [*agents, *_arrows(graph, agents)]
+        return Picture("the graph", "fomas graph", tuple(shapes))
     if graph.agents <= MOST_AGENTS_PATTERN and len(graph.edges) <= MOST_EDGES_PATTERN:
-        return Tex("\\begin{tikzpicture}\n" + "\n".join(_pattern(graph)) + "\n\\end{tikzpicture}")
+        return Picture("the pattern of A", "", tuple(_pattern(graph)))
     return None
 
 
@@ -42,50 +40,37 @@ def shows_weights(graph: Digraph) -> bool:
     return one_weight(graph) is None and graph.agents <= MOST_AGENTS_DRAWN and len(graph.edges) <= MOST_WEIGHTS_SHOWN
 
 
-def _nodes(agents: int) -> Iterator[str]:
-    radius = fixed(Fraction(2) if agents <= 10 else Fraction(agents + 10, 10), 2)
-    style = "agent" if agents <= 16 else "small agent"
-    for i in range(agents):
-        angle = fixed(90 - Fraction(360 * i, agents), 3)
-        yield rf"\node[{style}] ({i + 1}) at ({angle}:{radius}) {{{i + 1}}};"
+def _agents(count: int) -> list[Agent]:
+    radius = Fraction(2) if count <= 10 else Fraction(count + 10, 10)
+    return [Agent(i + 1, on_circle(Fraction(i, count), radius), count > 16) for i in range(count)]
 
 
-def _arrows(graph: Digraph) -> Iterator[str]:
+def _arrows(graph: Digraph, agents: list[Agent]) -> Iterator[Arrow]:
     weights = {(source, target): weight for source, target, weight in graph.edges}
     for (source, target), weight in weights.items():
         back = weights.get((target, source))
-        label = _label(weight) if shows_weights(graph) else ""
-        if back is None:
-            yield rf"\draw[hears] ({source}) to{label} ({target});"
-        elif back != weight:
-            yield rf"\draw[hears] ({source}) to[bend left=14]{label} ({target});"
-        elif source < target:
-            yield rf"\draw[hears both] ({source}) to{label} ({target});"
+        if back == weight and source > target:
+            continue
+        label = decimal(Interval.exactly(weight), 4) if shows_weights(graph) else ""
+        ends = agents[source - 1], agents[target - 1]
+        yield Arrow(
+            *ends,
+            both=back == weight,
+            bent=back not in (None, weight),
+            label=label,
+            label_tex=math_number(label) if label else None,
+        )
 
 
-def _label(weight: Fraction) -> str:
-    return rf" node[weight] {{${math_number(decimal(Interval.exactly(weight), 4))}$}}"
-
-
-def _pattern(graph: Digraph) -> Iterator[str]:
+def _pattern(graph: Digraph) -> Iterator[Box]:
     """A dot in row i, column j where agent i hears agent j; runs along a row are joined."""
-    cell = _PATTERN_SIZE / graph.agents
-    size = fixed(_PATTERN_SIZE, 3)
-    yield rf"\draw[gray] (0,0) rectangle ({size},{size});"
+    cell, zero = _PATTERN_SIZE / graph.agents, Fraction(0)
+    yield Box((zero, zero), (_PATTERN_SIZE, _PATTERN_SIZE), full=False)
     heard = sorted((target, source) for source, target, _ in graph.edges)
     start = 0
     for index, (i, j) in enumerate(heard):
         if index + 1 < len(heard) and heard[index + 1] == (i, j + 1):
             continue
         first = heard[start][1]
-        left, bottom = fixed(cell * (first - 1), 3), fixed(_PATTERN_SIZE - cell * i, 3)
-        right, top = fixed(cell * j, 3), fixed(_PATTERN_SIZE - cell * (i - 1), 3)
-        yield rf"\fill ({left},{bottom}) rectangle ({right},{top});"
+        yield Box((cell * (first - 1), _PATTERN_SIZE - cell * i), (cell * j, _PATTERN_SIZE - cell * (i - 1)))
         start = index + 1
-
-
-def fixed(x: Fraction, places: int) -> str:
-    """x rounded to so many decimals, without an exponent."""
-    scaled = round(x * 10**places)
-    whole, rest = divmod(abs(scaled), 10**places)
-    return f"{'-' if scaled < 0 else ''}{whole}.{rest:0{places}d}"

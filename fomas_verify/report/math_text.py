@@ -44,7 +44,7 @@ _RELATIONS = {"<=": r"\le", ">=": r"\ge", "<": "<", ">": ">", "=": "="}
 _TOKEN = re.compile(
     r"(?P<claim>\b(?:" + "|".join(CLAIM_IDS) + r")\b)"
     r"|(?P<label>\beq(?:T2|h|L3|xik_2|xik_3|1u0|u1u0)\b)"
-    r"|(?P<norm>\bnorm [ux]_\w\b)"
+    r"|(?P<norm>\bnorm (?:[ux]|Phi)_\w+\b)"
     r"|(?P<vector>\b[ux]_\w\b)"
     r"|(?P<symbol>(?<![\w.^-])(?:" + "|".join(re.escape(s) for s in _SYMBOLS) + r")(?![\w^]))"
     r"|(?P<number>(?<![\w.(^])" + _NUMBER + r"(?: \+- " + _NUMBER + r")?(?![\w/)]))"
@@ -130,7 +130,10 @@ def _math(kind: str, text: str) -> str:
     if kind == "number":
         return math_number(text)
     if kind == "norm":
-        return rf"\lVert {text.removeprefix('norm ')}\rVert"
+        name, index = text.removeprefix("norm ").split("_")
+        return (
+            rf"\lVert {chr(92) + name if name == 'Phi' else name}_{f'{{{index}}}' if len(index) > 1 else index}\rVert"
+        )
     return {"symbol": _SYMBOLS, "relation": _RELATIONS}.get(kind, {}).get(text, text)
 
 

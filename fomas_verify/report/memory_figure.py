@@ -11,12 +11,13 @@ from fractions import Fraction
 
 from fomas_verify.enclosure.interval import Interval
 from fomas_verify.kernel.memory import step_response
+from fomas_verify.report.latex_text import Tex
+from fomas_verify.report.plot import Curve, Plot, Table, with_room
 from fomas_verify.spectrum.loop import Loop
 
 LAST = 50
 FILE = "memory-inequality.csv"
 _BITS = 512
-_DIGITS = 12
 _SHOWN_MOST = 4
 
 
@@ -46,12 +47,25 @@ class MemoryFigure:
         """The smallest relative slack among the samples."""
         return self.slack[self.least_slack_at]
 
-    def csv(self) -> bytes:
-        """The figure's data: header ``k,left_side,relative_slack``, 12 decimals."""
-        rows = [
-            f"{k},{plain(x.mid)},{plain(y.mid)}" for k, (x, y) in enumerate(zip(self.left, self.slack, strict=True))
+    def table(self) -> Table:
+        """The figure's data."""
+        columns = {"left_side": [x.mid for x in self.left], "relative_slack": [x.mid for x in self.slack]}
+        return Table(FILE, {"k": [Fraction(k) for k in range(len(self.left))], **columns})
+
+    def plots(self) -> tuple[Plot, Plot]:
+        """The left side against 1, and the relative slack against 0."""
+        table, x_range = self.table(), (Fraction(-1), Fraction(LAST + 1))
+        drawn = [
+            (Tex("left side of (14)"), "left_side", "dots", 0, self.left, Fraction(1)),
+            (Tex(r"relative slack $1-\beta^{k+1}/c_{k+1}$"), "relative_slack", "squares", 1, self.slack, Fraction(0)),
         ]
-        return "\n".join(["k,left_side,relative_slack", *rows, ""]).encode()
+        found = []
+        for title, column, look, color, values, level in drawn:
+            ends = [level, *(x.mid for x in values)]
+            y_range = with_room(min(ends), max(ends))
+            curves = (Curve(column, look, color),)
+            found.append(Plot(title, "k", x_range, y_range, table, "k", curves, levels=(level,)))
+        return found[0], found[1]
 
 
 def memory_figure(loop: Loop) -> MemoryFigure | None:
@@ -70,10 +84,3 @@ def memory_figure(loop: Loop) -> MemoryFigure | None:
             break
         power = (power * beta).rounded(_BITS)
     return MemoryFigure(tuple(left), tuple(slack)) if left else None
-
-
-def plain(x: Fraction) -> str:
-    """x as a decimal with 12 digits after the point, rounded to nearest."""
-    scaled = round(x * 10**_DIGITS)
-    whole, rest = divmod(abs(scaled), 10**_DIGITS)
-    return f"{'-' if scaled < 0 else ''}{whole}.{rest:0{_DIGITS}d}"

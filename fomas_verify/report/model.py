@@ -13,20 +13,29 @@ from fomas_verify.claims.verdict import Verdict
 from fomas_verify.design import Design
 from fomas_verify.enclosure.interval import Interval
 from fomas_verify.kernel.memory import second_difference, step_response
+from fomas_verify.kernel.table import Row, kernel_rows
 from fomas_verify.network import is_symmetric
+from fomas_verify.network.matrices import adjacency
 from fomas_verify.prover import Proof
 from fomas_verify.report.checked import Checked
 from fomas_verify.report.claim_view import Change, ClaimView, changes, claim_views
+from fomas_verify.report.closed_forms import ClosedForm, closed_forms
 from fomas_verify.report.graph_drawing import draw_graph, one_weight, shows_weights
 from fomas_verify.report.latex_text import Tex
 from fomas_verify.report.margin_view import binding, margin_lines
-from fomas_verify.report.math_text import sentence
+from fomas_verify.report.math_text import rational, sentence
 from fomas_verify.report.memory_figure import MemoryFigure, memory_figure
+from fomas_verify.report.picture import Picture
+from fomas_verify.report.plot import Plot, Table
+from fomas_verify.report.region_view import RegionView, region_view
+from fomas_verify.report.simulation_view import SimulationView, simulation_view
 from fomas_verify.report.spectrum_view import Spectrum, spectrum_view
 from fomas_verify.spectrum.loop import Loop
 from fomas_verify.spectrum.stability import mu_star
 
 BITS = 128
+LARGEST_MATRIX = 10
+KERNEL_ROWS, KERNEL_DIGITS = (1, 2, 3, 4, 5, 10, 20, 50, 100, 1000), 12
 _RELATIONS = {-1: "<", 0: "=", 1: ">"}
 UNKNOWN = r"\overset{?}{=}"
 _PAIRS = {
@@ -48,7 +57,7 @@ class GraphView:
     weight: Fraction | None
     shows_weights: bool
     symmetric: bool
-    picture: Tex | None
+    picture: Picture | None
 
 
 @dataclass(frozen=True)
@@ -78,10 +87,42 @@ class ReportModel:
     changes: tuple[Change, ...]
     spectrum: Spectrum
     memory: MemoryFigure | None
+    kernel: tuple[Row, ...]
+    closed_forms: tuple[ClosedForm, ...]
+    region: RegionView
+    simulation: SimulationView | None
     margins: tuple[tuple[str, Tex], ...]
     binding: Tex
+    adjacency: Tex | None
     proof: Proof
     reproduction: Reproduction
+
+    @property
+    def tables(self) -> tuple[Table, ...]:
+        """The data of the figures."""
+        memory = () if self.memory is None else (self.memory.table(),)
+        return memory + (() if self.simulation is None else self.simulation.tables)
+
+    @property
+    def figures(self) -> dict[str, Picture | Plot]:
+        """Every figure by name."""
+        found: dict[str, Picture | Plot | None] = {"graph": self.graph.picture, "spectrum": self.spectrum.picture}
+        if self.memory is not None:
+            found["memory"], found["slack"] = self.memory.plots()
+        found["region"] = self.region.plot
+        if (seen := self.simulation) is not None:
+            found |= {"states": seen.states, "distance": seen.distance, "control": seen.control}
+        return {name: figure for name, figure in found.items() if figure is not None}
+
+    @property
+    def sizes(self) -> dict[str, Interval]:
+        """The numbers that a comparison shows; what does not exist for the design is absent."""
+        found, sizes = dict(self.numbers), self.proof.sizes
+        if sizes.peak is not None:
+            found["peak"] = sizes.peak.value
+        if sizes.rate is not None:
+            found |= {"kappa": Interval.exactly(sizes.rate.kappa), "rho": Interval.exactly(sizes.rate.rho)}
+        return found
 
     @property
     def required(self) -> tuple[ClaimView, ...]:
@@ -109,8 +150,13 @@ def report_model(proof: Proof, certificate: str, answer: Checked, command: str) 
         changes=tuple(changes(claims)),
         spectrum=spectrum_view(loop),
         memory=memory_figure(loop),
+        kernel=tuple(kernel_rows(design.alpha, KERNEL_ROWS, KERNEL_DIGITS)),
+        closed_forms=closed_forms(loop),
+        region=region_view(loop),
+        simulation=simulation_view(proof),
         margins=tuple((name, sentence(words)) for name, words in margin_lines(proof)),
         binding=sentence(binding(proof)),
+        adjacency=_adjacency(design),
         proof=proof,
         reproduction=_reproduction(design, certificate, answer, command),
     )
@@ -139,6 +185,13 @@ def _numbers(loop: Loop) -> dict[str, Interval]:
         found |= {"gap": loop.threshold(256) - loop.beta(256), "sigma_gap": found["sigma"] - found["threshold"]}
         found |= {"left0": beta + found["f1"], "left1": beta * beta + (1 - found["c2"])}
     return found
+
+
+def _adjacency(design: Design) -> Tex | None:
+    """The rows of A for a matrix; None where it is too large to print."""
+    if design.graph.agents > LARGEST_MATRIX:
+        return None
+    return Tex(r"\\".join("&".join(rational(x) for x in row) for row in adjacency(design.graph)))
 
 
 def _relations(proof: Proof) -> dict[str, Tex]:

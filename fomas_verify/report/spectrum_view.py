@@ -14,9 +14,9 @@ from fomas_verify.enclosure.digits import decimal
 from fomas_verify.enclosure.interval import Interval
 from fomas_verify.enclosure.real import square_root
 from fomas_verify.enclosure.roots import root_of
-from fomas_verify.report.graph_drawing import fixed
 from fomas_verify.report.latex_text import Tex
 from fomas_verify.report.math_text import math_number
+from fomas_verify.report.picture import Dot, Picture, Point, Ring, Segment, Shape
 from fomas_verify.spectrum.loop import Loop
 
 BITS = 128
@@ -52,7 +52,7 @@ class Spectrum:
 
     eigenvalues: tuple[Eigenvalue, ...]
     radius: Interval
-    picture: Tex
+    picture: Picture
 
     @property
     def shown(self) -> tuple[Eigenvalue, ...]:
@@ -94,30 +94,24 @@ def _eigenvalues(loop: Loop) -> Iterator[Eigenvalue]:
         yield Eigenvalue((root.real, root.imag), (real, imag), modulus, root.multiplicity, root.imag.lower > 0)
 
 
-def _picture(loop: Loop, eigenvalues: list[Eigenvalue]) -> Tex:
+def _picture(loop: Loop, eigenvalues: list[Eigenvalue]) -> Picture:
     """Unit circle, Gershgorin disc, the circle of radius sigma, the line Re = beta, and the eigenvalues."""
-    reach = loop.mu(BITS).mid * loop.degree_max
-    extent = max([Fraction(1), 2 * reach - 1, *(e.modulus.mid for e in eigenvalues)])
+    reach, zero, one = loop.mu(BITS).mid * loop.degree_max, Fraction(0), Fraction(1)
+    extent = max([one, 2 * reach - 1, *(e.modulus.mid for e in eigenvalues)])
     unit = _FIGURE_RADIUS / extent
 
-    def at(x: Fraction, y: Fraction = Fraction(0)) -> str:
-        return f"({fixed(x * unit, 3)},{fixed(y * unit, 3)})"
-
-    def circle(style: str, centre: Fraction, radius: Fraction) -> str:
-        return rf"\draw[{style}] {at(centre)} circle[radius={fixed(radius * unit, 3)}];"
+    def at(x: Fraction, y: Fraction = zero) -> Point:
+        return x * unit, y * unit
 
     edge = extent * Fraction(23, 20)
-    lines = [
-        rf"\draw[axis] {at(-edge)} -- {at(edge)};",
-        rf"\draw[axis] {at(Fraction(0), -edge)} -- {at(Fraction(0), edge)};",
-    ]
-    lines += [circle("unit circle", Fraction(0), Fraction(1)), circle("gershgorin", 1 - reach, reach)]
+    shapes: list[Shape] = [Segment("axis", at(-edge), at(edge)), Segment("axis", at(zero, -edge), at(zero, edge))]
+    shapes += [Ring("unit circle", at(zero), unit), Ring("gershgorin", at(1 - reach), reach * unit)]
     if loop.assumption1:
         beta = loop.beta(BITS).mid
-        lines.append(circle("sigma circle", Fraction(0), loop.sigma(BITS).mid))
-        lines.append(rf"\draw[beta line] {at(beta, -extent)} -- {at(beta, extent)};")
+        shapes.append(Ring("sigma circle", at(zero), loop.sigma(BITS).mid * unit))
+        shapes.append(Segment("beta line", at(beta, -extent), at(beta, extent)))
     for e in eigenvalues:
         x, y = (part.mid for part in e.of_perron)
-        lines += [rf"\fill {at(x, v)} circle[radius=1.5pt];" for v in ([y, -y] if e.is_pair else [y])]
-    lines.append(rf"\draw[fill=white] {at(Fraction(1))} circle[radius=1.7pt];")
-    return Tex("\\begin{tikzpicture}[fomas spectrum]\n" + "\n".join(lines) + "\n\\end{tikzpicture}")
+        shapes += [Dot(at(x, v)) for v in ([y, -y] if e.is_pair else [y])]
+    shapes.append(Dot(at(one), hollow=True))
+    return Picture("the eigenvalues of P in the complex plane", "fomas spectrum", tuple(shapes))

@@ -8,6 +8,9 @@ import pytest
 
 from fomas_verify.design import parse_design
 from fomas_verify.prover import Proof, prove
+from fomas_verify.report.checked import Checked
+from fomas_verify.report.model import ReportModel, report_model
+from fomas_verify.report.rendering import render
 
 HOSTILE = r"a_b & \input{/etc/passwd} <script> $x^2$ #1 %d ~ {}} -- `` ^^41 \end{document}"
 DESIGNS = {
@@ -34,6 +37,17 @@ needs_latex = pytest.mark.skipif(shutil.which("pdflatex") is None, reason="pdfla
 @cache
 def proof_of(name: str) -> Proof:
     return prove(parse_design(DESIGNS[name], "toml", f"{name}.toml"))
+
+
+@cache
+def rendered(name: str, form: str) -> str:
+    """The text of a report in one format, without the checker's answer, which other tests ask for."""
+    return render([_model_of(name)], form)
+
+
+@cache
+def _model_of(name: str) -> ReportModel:
+    return report_model(proof_of(name), "{}", Checked(0, 0, ()), "verify-design report x")
 
 
 def complaints(log: str) -> list[str]:
