@@ -12,6 +12,7 @@ from operator import mul
 from fomas_verify.checker.definite import least_sign
 from fomas_verify.checker.facts import settle
 from fomas_verify.checker.graph import Graph, Rows, common_denominator, limit_size
+from fomas_verify.checker.packed import combinations
 from fomas_verify.checker.ruling import Undecided, need, need_that
 from fomas_verify.checker.witness import Triangle
 
@@ -28,6 +29,14 @@ def differences_step(graph: Graph, t: Fraction) -> tuple[Rows, int]:
     for i, row in enumerate(rows):
         row[i] += f
     return rows, f
+
+
+def _step(graph: Graph, t: Fraction) -> Rows:
+    """f (I - t L), with the f of `differences_step`."""
+    rows = [[-t.numerator * entry for entry in row] for row in graph.laplacian]
+    for i, row in enumerate(rows):
+        row[i] += graph.denominator * t.denominator
+    return rows
 
 
 @lru_cache(maxsize=4)
@@ -88,16 +97,18 @@ def power_trace_beyond(rows: Rows, f: int, n: int) -> int | None:
     def test(width: int) -> int | None:
         if size**3 * n.bit_length() * width > MAX_POWER_WORK:
             return None
-        scaled = [[divmod(entry << width, f) for entry in row] for row in rows]
+        scaled = [[divmod(entry << width, f) for entry in row] for row in _step(graph, t)]
         inexact = any(rest for row in scaled for _, rest in row)
         base = Scaled([[entry for entry, _ in row] for row in scaled], -width, int(inexact))
         result = _power(base, n, width)
         if result is None:
             return None
-        slack = size * result.error
-        if _exceeds(abs(result.trace) - slack, result.exponent, size):
+        # The eigenvalues of I - t L are those of Pc(t) and 1; its powers are smaller, their rows sum to 1.
+        slack, exponent = (size + 1) * result.error, result.exponent
+        if _exceeds(result.trace - slack, exponent, size + 1) or _exceeds(-result.trace - slack, exponent, size - 1):
             return 1
-        return None if _exceeds(abs(result.trace) + slack, result.exponent, size) else -1
+        below = _exceeds(result.trace + slack, exponent, size + 1) or _exceeds(slack - result.trace, exponent, size - 1)
+        return None if below else -1
 
     return settle(test)
 
@@ -149,12 +160,11 @@ def _product(a: Scaled, b: Scaled, width: int) -> Scaled:
 
 
 def _times(a: Rows, b: Rows) -> Rows:
-    columns = list(zip(*b, strict=True))
-    return [[sum(map(mul, row, column)) for column in columns] for row in a]
+    return combinations(b, a)
 
 
 def _exceeds(x: int, exponent: int, bound: int) -> bool:
-    """Whether x 2^exponent > bound >= 1; the exponent can be far too large to shift by."""
+    """Whether x 2^exponent > bound >= 0; the exponent can be far too large to shift by."""
     if exponent >= 0:
         return x << min(exponent, bound.bit_length()) > bound
     return x > bound << min(-exponent, max(x.bit_length(), 1))
