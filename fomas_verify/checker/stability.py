@@ -83,31 +83,34 @@ def _bits(rows: Rows) -> int:
 @lru_cache(maxsize=4)
 def trace_beyond(graph: Graph, t: Fraction, n: int) -> int | None:
     """1 if abs trace(Pc(t)^n) > N - 1, -1 if not, None if not decided."""
-    return power_trace_beyond(*differences_step(graph, t), n)
+    _, f = differences_step(graph, t)
+    return power_trace_beyond(_step(graph, t), f, n, 1)
 
 
-def power_trace_beyond(rows: Rows, f: int, n: int) -> int | None:
-    """1 if abs trace((F / f)^n) is more than the number of rows of F, -1 if not, None if not decided."""
+def power_trace_beyond(rows: Rows, f: int, n: int, ones: int = 0) -> int | None:
+    """1 if abs(trace((F / f)^n) - ones) > size - ones for F with `size` rows, -1 if not, None if not decided.
+
+    `ones` of the eigenvalues are known to be 1: the others are as many as the right side says.
+    """
     size = len(rows)
     bits = max(_bits(rows), f.bit_length()) + size.bit_length()
     if bits * n <= MAX_EXACT_POWER_BITS:
         trace = sum(row[i] for i, row in enumerate(_exact_power(rows, n)))
-        return 1 if abs(trace) > size * f**n else -1
+        return 1 if abs(trace - ones * f**n) > (size - ones) * f**n else -1
 
     def test(width: int) -> int | None:
         if size**3 * n.bit_length() * width > MAX_POWER_WORK:
             return None
-        scaled = [[divmod(entry << width, f) for entry in row] for row in _step(graph, t)]
+        scaled = [[divmod(entry << width, f) for entry in row] for row in rows]
         inexact = any(rest for row in scaled for _, rest in row)
         base = Scaled([[entry for entry, _ in row] for row in scaled], -width, int(inexact))
         result = _power(base, n, width)
         if result is None:
             return None
-        # The eigenvalues of I - t L are those of Pc(t) and 1; its powers are smaller, their rows sum to 1.
-        slack, exponent = (size + 1) * result.error, result.exponent
-        if _exceeds(result.trace - slack, exponent, size + 1) or _exceeds(-result.trace - slack, exponent, size - 1):
+        slack, exponent, low = size * result.error, result.exponent, size - 2 * ones
+        if _exceeds(result.trace - slack, exponent, size) or _exceeds(-result.trace - slack, exponent, low):
             return 1
-        below = _exceeds(result.trace + slack, exponent, size + 1) or _exceeds(slack - result.trace, exponent, size - 1)
+        below = _exceeds(result.trace + slack, exponent, size) or _exceeds(slack - result.trace, exponent, low)
         return None if below else -1
 
     return settle(test)
