@@ -2,6 +2,7 @@
 
 from fomas_verify.design.claim_ids import CLAIM_IDS, DEFAULT_REQUIRE
 from fomas_verify.design.errors import DesignError
+from fomas_verify.design.limits import Limits
 from fomas_verify.design.model import Design, UncertainDesign
 from fomas_verify.design.reading import design_from_mapping, parse_design, read_any, read_design
 
@@ -10,6 +11,7 @@ __all__ = [
     "DEFAULT_REQUIRE",
     "Design",
     "DesignError",
+    "Limits",
     "UncertainDesign",
     "design_from_mapping",
     "parse_design",

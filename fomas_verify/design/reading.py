@@ -14,6 +14,7 @@ from fomas_verify.design.document import Format, format_of, parse_document, read
 from fomas_verify.design.errors import DesignError
 from fomas_verify.design.fields import Place, choice, count, number, positive, sequence, shown, table
 from fomas_verify.design.graph_table import read_graph
+from fomas_verify.design.limits import NO_LIMITS, read_limits
 from fomas_verify.design.model import Design, State, UncertainDesign
 from fomas_verify.enclosure.interval import Interval
 
@@ -21,8 +22,8 @@ FORMAT: Final = "fomas-design/1"
 MAX_HORIZON: Final = 10**9
 MAX_NAME: Final = 200
 
-_KEYS = ("name", "alpha", "gamma", "mu", "h", "x0", "horizon", "settle_to", "graph", "gate", "format")
-_UNSUPPORTED = ("graphs", "limits")
+_KEYS = ("name", "alpha", "gamma", "mu", "h", "x0", "horizon", "settle_to", "graph", "gate", "limits", "format")
+_UNSUPPORTED = ("graphs",)
 _ALPHA_LIMIT = 2**64
 
 
@@ -127,6 +128,7 @@ def any_from_mapping(mapping: Mapping[str, object], source: str = "design") -> D
         horizon=count(top["horizon"], place.key("horizon"), 0, MAX_HORIZON) if "horizon" in top else None,
         settle_to=_settle_to(top["settle_to"], place.key("settle_to")) if "settle_to" in top else None,
         require=_require(top, place) if "gate" in top else DEFAULT_REQUIRE,
+        limits=read_limits(top["limits"], place.key("limits")) if "limits" in top else NO_LIMITS,
         source=source,
         notes=_notes(top),
     )

@@ -43,7 +43,7 @@ UNSAYABLE_OF_DESIGNS = [
     r"(agents|shape): .* agents, more than 2000, are not supported yet",
     # the value of a fraction in a string, and bits
     r"(alpha|settle_to)(\[[01]\])?: expected a number between 0 and 1, both excluded, got ('|\")",
-    r"\[1\]: expected a number above ",
+    r"\[1\]: expected a number (above|at or above) ",
     r"numerator and denominator below 2\^",
     r"weights whose common denominator has at most 256 bits",
     r"expected an exponent between -4000 and 4000",
@@ -156,6 +156,12 @@ MORE = [
         "x0": [1, 2],
         "gate": {"require": ["trajectory-norm-bound"]},
     },
+    {
+        "alpha": "0.5",
+        "graph": {"family": "path", "agents": 2},
+        "limits": {"h": ["-0", "1/2"], "gamma": [Decimal("0.1"), 2], "u_max": 3, "settle_within": "1e2"},
+    },
+    {"alpha": "0.5", "graph": {"family": "path", "agents": 2}, "limits": {"h": [1, 1]}},
 ]
 BASES = [*GOOD.values(), *MORE, tomllib.loads(TEMPLATE.format(name=NAME), parse_float=decimal)]
 
@@ -255,7 +261,8 @@ def walk(value: Any) -> Iterator[Any]:
 
 def test_mutants_of_designs() -> None:
     source = random.Random(1)
-    keys = [*DESIGN_SCHEMA["properties"], "agents", "edges", "adjacency", "family", "shape", "file", "limits", "graphs"]
+    keys = [*DESIGN_SCHEMA["properties"], "agents", "edges", "adjacency", "family", "shape", "file", "graphs"]
+    keys += ["u_max", "settle_within", *DESIGN_SCHEMA["properties"]["limits"]["properties"]]
     accepted = 0
     for _ in range(MUTANTS):
         document = mutated(source.choice(BASES), source, keys, VALUES)
