@@ -1,6 +1,6 @@
 """The certificate as data: its schema, read from parsed JSON with the path of every defect.
 
-Source: docs/certificate-format.md, sections 1 to 4, 7 and 8.
+Source: docs/certificate-format.md, sections 1 to 4 and 7 to 9.
 """
 
 from dataclasses import dataclass
@@ -9,6 +9,7 @@ from fomas_verify.checker.designs import Design, UncertainDesign, read_claim_id,
 from fomas_verify.checker.member_form import MemberWitness, read_member_witness
 from fomas_verify.checker.region_form import Condition, read_conditions
 from fomas_verify.checker.statements import VERDICTS
+from fomas_verify.checker.task_form import Task, read_task
 from fomas_verify.checker.text import Malformed, array, expected, fields, parse, string
 from fomas_verify.checker.value_form import Value, read_values
 from fomas_verify.checker.witness import read_witness
@@ -33,6 +34,7 @@ class Document:
     design: Design | UncertainDesign
     values: tuple[Value, ...]
     claims: tuple[Claim | Condition, ...]
+    task: Task | None = None
 
 
 def read_document(data: bytes) -> Document:
@@ -47,10 +49,12 @@ def read_document(data: bytes) -> Document:
     if isinstance(whole, dict) and "format" in whole:
         # Of another format other keys are expected.
         _literal(whole["format"], "$.format", FORMAT)
-    top = fields(whole, "$", ("format", "kind", "design", "values", "claims", "tool"))
+    top = fields(whole, "$", ("format", "kind", "design", "values", "claims", "tool"), ("task",))
     kind = top["kind"]
-    if kind not in ("design", "region"):
-        raise expected("$.kind", '"design" or "region"', kind)
+    if kind not in ("design", "region", "synthesis"):
+        raise expected("$.kind", '"design", "region" or "synthesis"', kind)
+    if ("task" in top) != (kind == "synthesis"):
+        raise Malformed("$", 'expected a key "task" in a synthesis, and only there')
     tool = fields(top["tool"], "$.tool", ("name", "version"))
     _literal(tool["name"], "$.tool.name", "fomas_verify")
     if len(string(tool["version"], "$.tool.version")) > 64:
@@ -59,9 +63,23 @@ def read_document(data: bytes) -> Document:
         family = read_family(top["design"], "$.design")
         fields(top["values"], "$.values", ())
         return Document(family, (), read_conditions(top["claims"], "$.claims", family.agents))
+    if kind == "synthesis":
+        return _synthesis(top)
     design = read_design(top["design"], "$.design")
     values = read_values(top["values"], "$.values", design.agents)
     return Document(design, values, _claims(top["claims"], "$.claims", design))
+
+
+def _synthesis(top: dict[str, object]) -> Document:
+    """A certificate of a synthesis: what is said of the design that was found, and of the task."""
+    design = read_family(top["design"], "$.design")
+    task = read_task(top["task"], "$.task", design.agents)
+    if design.mu is None and (design.gamma is None or design.h is None):
+        fields(top["values"], "$.values", ())
+        array(top["claims"], "$.claims", "an empty array, as the design has no mu", 0)
+        return Document(design, (), (), task)
+    claims = _claims(top["claims"], "$.claims", design) if top["claims"] != [] else ()
+    return Document(design, read_values(top["values"], "$.values", design.agents), claims, task)
 
 
 def _literal(value: object, path: str, text: str) -> None:

@@ -1,6 +1,6 @@
 """The claims a certificate can make, and what each says, to the letter.
 
-Source: docs/certificate-format.md, sections 4 and 8.
+Source: docs/certificate-format.md, sections 4, 8 and 9.
 """
 
 STATEMENTS: dict[str, str] = {
@@ -51,3 +51,10 @@ CONDITIONS: dict[str, str] = {
 """What the certificate of a region can say: each that a condition on mu can be met."""
 
 MARGINS = ("gain-bound", "memory-inequality", "perron-eigenvalues", "repaired-condition", "control-norm-bound")
+
+OBJECTIVES = ("fastest", "gentlest", "slowest-sampling", "most-robust")
+TASK_CLAIMS: dict[str, str] = {
+    "feasible": "some gamma > 0 and h > 0 satisfy the condition and the limits",
+    "best": "no gamma > 0 and h > 0 that satisfy the condition and the limits are as good as the bound",
+}
+"""What the certificate of a synthesis can say beside the claims about the design that was found."""

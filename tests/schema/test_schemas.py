@@ -23,6 +23,7 @@ from fomas_verify.cli.init import NAME, TEMPLATE
 from fomas_verify.design import DesignError
 from fomas_verify.design.document import Number, format_of, parse_document, read_text
 from fomas_verify.design.reading import any_from_mapping
+from tests.checker.test_synthesis import AFTER, ALL, END, HASTE, ONE, START, TWO, best, feasible, impossible
 
 ROOT = Path(__file__).resolve().parents[2]
 CORPUS = ROOT / "tests" / "corpus"
@@ -64,6 +65,9 @@ UNSAYABLE_OF_CERTIFICATES = [
     r"a number with a fraction or an exponent",
     r"expected a string, got '.ud800'",
     r"witness\.member: (unknown|missing) key",
+    r"limits\.(h|gamma): expected 0 <= lower <= upper",
+    r"settle_to: expected a rational in \(0, 1\)",
+    r"blocks\[\d+\]\.to: expected an integer of at least \d+",
     r"digits",
 ]
 
@@ -193,6 +197,21 @@ def test_both_accept_the_form_of_a_certificate(path: Path) -> None:
     CERTIFICATES.validate(document)
 
 
+SYNTHESES = [
+    feasible(ALL, START),
+    {**feasible({}), "values": {"degree_max": {"lower": "1", "upper": "1"}}},
+    impossible(HASTE, ONE, TWO, AFTER),
+    best({"gamma": ["1/2", "1"]}, "slowest-sampling", "1571/1000", END),
+    best({"settle_to": "1/100"}, "fastest", "1"),
+]
+
+
+@pytest.mark.parametrize("document", SYNTHESES)
+def test_both_accept_the_form_of_a_synthesis(document: dict[str, Any]) -> None:
+    assert certificate_refusal(document) == ""
+    CERTIFICATES.validate(document)
+
+
 @pytest.mark.parametrize("path", certificates("malformed"), ids=lambda path: path.stem)
 def test_a_malformed_certificate(path: Path) -> None:
     try:
@@ -274,6 +293,7 @@ def test_mutants_of_designs() -> None:
 def test_mutants_of_certificates() -> None:
     source = random.Random(2)
     bases = [json.loads(path.read_bytes()) for path in certificates("accepted") if path.stat().st_size < 20_000]
+    bases += SYNTHESES * 4
     keys = [
         "mu",
         "gamma",
@@ -291,6 +311,11 @@ def test_mutants_of_certificates() -> None:
         "margins",
         "rate",
         "samples",
+        "task",
+        "u_max",
+        "bound",
+        "blocks",
+        "pairs",
     ]
     accepted = 0
     for _ in range(MUTANTS):
