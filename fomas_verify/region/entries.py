@@ -36,7 +36,7 @@ def certificate(region: Region) -> str:
     """The certificate's canonical text."""
     from importlib.metadata import version
 
-    return region_certificate_text(region.loop.design, map(_claim, region.strips), version("fomas_verify"))
+    return region_certificate_text(region.loop.design, map(condition_claim, region.strips), version("fomas_verify"))
 
 
 def _condition(strip: Strip) -> dict[str, Any]:
@@ -48,7 +48,8 @@ def _condition(strip: Strip) -> dict[str, Any]:
     return found | {"alpha_opens": alpha}
 
 
-def _claim(strip: Strip) -> dict[str, Any]:
+def condition_claim(strip: Strip) -> dict[str, Any]:
+    """A condition as a certificate claims it."""
     mu, opening = strip.mu, strip.opening
     witness: dict[str, Any] = dict(strip.empty)
     if mu is not None:

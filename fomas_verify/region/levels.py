@@ -1,0 +1,47 @@
+"""On which mu k samples settle: ``sigma(mu)^k <= eps``. More samples, more mu."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from functools import cache
+
+from fomas_verify.enclosure.interval import Interval
+from fomas_verify.enclosure.real import power_of
+from fomas_verify.region.least_factor import least_factor
+from fomas_verify.spectrum.contraction import contraction_interval
+from fomas_verify.spectrum.loop import Loop, sigma_at
+from fomas_verify.spectrum.margins import BITS
+
+
+@cache
+def level(loop: Loop, settle_to: Fraction, k: int) -> Interval | None:
+    """An interval outside of which no mu has ``sigma(mu)^k <= settle_to``; None where no mu of [0, 1/D] has it.
+
+    Rigorous; its ends are within about 2^-90 of themselves of the true ones. Presupposes Assumption 1.
+    """
+    return contraction_interval(loop, factor(settle_to, k))
+
+
+def factor(settle_to: Fraction, k: int) -> Interval:
+    """``settle_to^(1/k)``."""
+    return power_of(Interval.exactly(settle_to), Fraction(1, k), BITS)
+
+
+def settles(loop: Loop, mu: Interval, settle_to: Fraction, k: int) -> bool:
+    """Whether it is certain that ``sigma(mu)^k <= settle_to``; rigorous, as sigma is convex in mu."""
+    within = factor(settle_to, k).lower
+    return all(sigma_at(loop.laplacian, end, BITS).upper <= within for end in mu.outward(BITS).ends)
+
+
+def fewest_samples(loop: Loop, settle_to: Fraction) -> int:
+    """A number of samples that no mu of [0, 1/D] settles in fewer than."""
+    best = least_factor(loop)
+    low, high = 0, 1
+    if best is None:
+        return 1
+    while best.lower > factor(settle_to, high).upper:
+        low, high = high, 2 * high
+    while high - low > 1:
+        middle = (low + high) // 2
+        low, high = (middle, high) if best.lower > factor(settle_to, middle).upper else (low, middle)
+    return high
