@@ -4,13 +4,20 @@ section 8.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
 from fomas_verify.certificate.document import plain
 from fomas_verify.certificate.region_document import region_certificate_text
 from fomas_verify.claims.verdict import Verdict
+from fomas_verify.enclosure.interval import Interval
 from fomas_verify.region.model import Condition, Region, Strip
+
+if TYPE_CHECKING:
+    from fomas_verify.region.polygon import Room
+
+KEPT_BITS = 96
+"""The bits of a vertex."""
 
 STATEMENTS: Mapping[Condition, str] = {
     Condition.AS_STATED: (
@@ -27,9 +34,32 @@ STATEMENTS: Mapping[Condition, str] = {
 }
 
 
-def record(region: Region) -> dict[str, Any]:
-    """What ``region --json`` prints."""
-    return {"conditions": [_condition(strip) for strip in region.strips]}
+def record(region: Region, left: Sequence[Room] = ()) -> dict[str, Any]:
+    """What ``region --json`` prints; with what the limits leave of each condition, where there are limits."""
+    entries = [_condition(strip) for strip in region.strips]
+    for entry, room in zip(entries, left, strict=False):
+        entry["limits"] = _room(room)
+    return {"conditions": entries}
+
+
+def _room(room: Room) -> dict[str, Any]:
+    pieces = [
+        {
+            "samples": piece.samples,
+            "unbounded": piece.unbounded,
+            "vertices": [{"gamma": _ends(v.gamma), "h": _ends(v.h)} for v in piece.vertices],
+        }
+        for piece in room.pieces
+    ]
+    empty = None if not pieces and room.clash is None else not pieces
+    found = {"empty": empty, "clash": room.clash, "polyhedra": pieces, "more": room.more, "peak_bound": room.peak_bound}
+    plain_found: dict[str, Any] = plain(found)
+    return plain_found
+
+
+def _ends(x: Interval) -> dict[str, Any]:
+    outer = x.rounded(KEPT_BITS)
+    return {"lower": outer.lower, "upper": outer.upper}
 
 
 def certificate(region: Region) -> str:

@@ -10,7 +10,10 @@ from fomas_verify.enclosure.real import power_of
 from fomas_verify.region.least_factor import least_factor
 from fomas_verify.spectrum.contraction import contraction_interval
 from fomas_verify.spectrum.loop import Loop, sigma_at
-from fomas_verify.spectrum.margins import BITS
+from fomas_verify.spectrum.margins import BITS, above, below
+
+INWARD = (72, 56, 40, 24, 12)
+"""A certified end lies inward of the level's by 2^-72 of itself, or by the first of the others that will do."""
 
 
 @cache
@@ -20,6 +23,19 @@ def level(loop: Loop, settle_to: Fraction, k: int) -> Interval | None:
     Rigorous; its ends are within about 2^-90 of themselves of the true ones. Presupposes Assumption 1.
     """
     return contraction_interval(loop, factor(settle_to, k))
+
+
+@cache
+def enclosed_level(loop: Loop, settle_to: Fraction, k: int) -> tuple[Interval, Interval] | None:
+    """Both ends of the mu that settle in k samples, enclosed; None where no mu does, or none was found. Rigorous."""
+    found, within = level(loop, settle_to, k), factor(settle_to, k).lower
+    if found is None:
+        return None
+    for shift in INWARD:
+        low, high = above(found.lower, shift), below(found.upper, shift)
+        if low < high and all(sigma_at(loop.laplacian, mu, BITS).upper <= within for mu in (low, high)):
+            return Interval(found.lower, low), Interval(high, found.upper)
+    return None
 
 
 def factor(settle_to: Fraction, k: int) -> Interval:
