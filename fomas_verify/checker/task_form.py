@@ -11,6 +11,7 @@ from fomas_verify.checker.region_form import Condition, Pairs, read_condition, r
 from fomas_verify.checker.statements import OBJECTIVES, TASK_CLAIMS
 from fomas_verify.checker.text import Malformed, array, count, expected, fields, rational, string
 
+MOST_NAME = 64
 MOST_BLOCKS = 1024
 
 Range = tuple[Fraction, Fraction]
@@ -59,7 +60,9 @@ class Task:
 
 def read_task(value: object, path: str, agents: int) -> Task:
     """The task of a synthesis, its form checked; raises `Malformed`."""
-    given = fields(value, path, ("condition", "limits", "objective", "claims"))
+    given = fields(value, path, ("condition", "limits", "objective", "claims"), ("solver",))
+    if len(string(given.get("solver", ""), f"{path}.solver")) > MOST_NAME:
+        raise expected(f"{path}.solver", f"at most {MOST_NAME} characters", given["solver"])
     condition = read_condition(given["condition"], f"{path}.condition", agents)
     objective = _one_of(given["objective"], f"{path}.objective", OBJECTIVES)
     limits = _limits(given["limits"], f"{path}.limits", objective)

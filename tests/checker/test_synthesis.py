@@ -324,3 +324,13 @@ def test_what_is_no_synthesis(edit: Edit, where: str) -> None:
     with pytest.raises(Malformed) as caught:
         checked(edited)
     assert where in str(caught.value)
+
+
+def test_a_solver_may_be_named_and_changes_nothing() -> None:
+    document = feasible({"h": ["1", "3"]})
+    before = answer(document)
+    document["task"]["solver"] = "a solver"
+    assert answer(document) == before
+    document["task"]["solver"] = "x" * 65
+    with pytest.raises(Malformed, match="at most 64 characters"):
+        checked(document)
