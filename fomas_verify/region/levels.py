@@ -5,12 +5,15 @@ from __future__ import annotations
 from fractions import Fraction
 from functools import cache
 
-from fomas_verify.enclosure.interval import Interval
+from fomas_verify.enclosure.interval import Interval, short_dyadic
 from fomas_verify.enclosure.real import power_of
-from fomas_verify.region.least_factor import least_factor
+from fomas_verify.region.least_factor import Line, least_factor, line_at
 from fomas_verify.spectrum.contraction import contraction_interval
 from fomas_verify.spectrum.loop import Loop, sigma_at
 from fomas_verify.spectrum.margins import BITS, above, below
+
+NEAR = 40
+"""A line touches sigma within 2^-40 of the upper end of a level."""
 
 INWARD = (72, 56, 40, 24, 12)
 """A certified end lies inward of the level's by 2^-72 of itself, or by the first of the others that will do."""
@@ -23,6 +26,22 @@ def level(loop: Loop, settle_to: Fraction, k: int) -> Interval | None:
     Rigorous; its ends are within about 2^-90 of themselves of the true ones. Presupposes Assumption 1.
     """
     return contraction_interval(loop, factor(settle_to, k))
+
+
+@cache
+def known_lines(loop: Loop) -> list[Line]:
+    """Lines below sigma, each nearly touching it somewhere, to which whoever finds one adds it. Each holds for every
+    mu, so that it may show without a search that sigma is too large somewhere else.
+    """
+    return [line_at(loop, 1 / loop.degree_max)]
+
+
+def touch(loop: Loop, found: Interval) -> None:
+    """Add the lines that touch sigma just outside both ends of a level."""
+    gap = found.upper / (1 << NEAR)
+    for low, high in ((found.lower - gap, found.lower), (found.upper, found.upper + gap)):
+        if high > 0:
+            known_lines(loop).append(line_at(loop, short_dyadic(max(low, Fraction(0)), high)))
 
 
 @cache

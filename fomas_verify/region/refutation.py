@@ -14,7 +14,7 @@ from typing import Any
 from fomas_verify.enclosure.interval import Interval, short_dyadic
 from fomas_verify.kernel.memory import one_step_weight
 from fomas_verify.region.least_factor import VECTOR_BITS, Pair, line_at, lower_bound, scaled_pair
-from fomas_verify.region.levels import factor, level
+from fomas_verify.region.levels import factor, known_lines, level
 from fomas_verify.region.task import Objective, Task
 from fomas_verify.spectrum.margins import BITS
 
@@ -112,27 +112,51 @@ def _block(tight: Tightened, first: int, last: int) -> dict[str, Any] | None:
         return {"from": first, "to": last}
     if task.settle_to is None:
         return None
-    allowed = level(task.loop, task.settle_to, last)
-    if allowed is not None and allowed.overlaps(left):
-        return None
-    pairs = _pairs(task, left, allowed, factor(task.settle_to, last).upper)
+    beyond = factor(task.settle_to, last).upper
+    pairs = _known(task, left, beyond) or _least(task, left, beyond)
+    if pairs is None and first == last:
+        pairs = _nearest(task, left, last)
     return None if pairs is None else {"from": first, "to": last, "pairs": pairs}
 
 
-def _pairs(task: Task, left: Interval, allowed: Interval | None, beyond: Fraction) -> list[Pair] | None:
-    """Pairs with short integers that show sigma > beyond on `left`, which the mu allowed do not meet."""
-    best = task.region.best
-    single = None
-    if allowed is not None:
-        below = left.upper < allowed.lower
-        gap = Interval(left.upper, allowed.lower) if below else Interval(allowed.upper, left.lower)
-        near = (gap.lower, gap.mid) if below else (gap.mid, gap.upper)
-        single = line_at(task.loop, short_dyadic(*near)).pair
-    for bits in VECTOR_BITS:
-        pairs = [scaled_pair(single, Fraction(1), bits)] if single else best.pairs(bits) if best else []
-        if any(any(v) for _, v in pairs) and lower_bound(task.loop, pairs, left) > beyond:
+def _known(task: Task, left: Interval, beyond: Fraction) -> list[Pair] | None:
+    """The same by a line that is known already."""
+    for line in known_lines(task.loop):
+        if min(map(line.at, left.ends)) > beyond and (pairs := _short(task, line.pair, left, beyond)) is not None:
             return pairs
     return None
+
+
+def _short(task: Task, pair: Pair, left: Interval, beyond: Fraction) -> list[Pair] | None:
+    """The pair with the shortest integers that still show sigma > beyond on `left`."""
+    for bits in VECTOR_BITS:
+        pairs = [scaled_pair(pair, Fraction(1), bits)]
+        if any(pairs[0][1]) and lower_bound(task.loop, pairs, left) > beyond:
+            return pairs
+    return None
+
+
+def _least(task: Task, left: Interval, beyond: Fraction) -> list[Pair] | None:
+    """The same by the pairs at the least sigma of all mu up to 1/D."""
+    best = task.region.best
+    if best is None or best.lower <= beyond:
+        return None
+    found = (best.pairs(bits) for bits in VECTOR_BITS)
+    return next((pairs for pairs in found if pairs and lower_bound(task.loop, pairs, left) > beyond), None)
+
+
+def _nearest(task: Task, left: Interval, samples: int) -> list[Pair] | None:
+    """The same by the line that touches sigma between `left` and the mu that settle; None where these meet."""
+    if task.settle_to is None:
+        return None
+    allowed = level(task.loop, task.settle_to, samples)
+    if allowed is None or allowed.overlaps(left):
+        return None
+    below = left.upper < allowed.lower
+    gap = Interval(left.upper, allowed.lower) if below else Interval(allowed.upper, left.lower)
+    line = line_at(task.loop, short_dyadic(*((gap.lower, gap.mid) if below else (gap.mid, gap.upper))))
+    known_lines(task.loop).append(line)
+    return _short(task, line.pair, left, factor(task.settle_to, samples).upper)
 
 
 def most_robust_is_at_most(task: Task, bound: Fraction) -> bool:

@@ -11,12 +11,14 @@ import math
 from dataclasses import dataclass
 from fractions import Fraction
 
-from fomas_verify.enclosure.interval import Interval
-from fomas_verify.region.levels import fewest_samples, level
+from fomas_verify.region.levels import fewest_samples, known_lines, level, touch
 from fomas_verify.region.task import Objective, Task
 
-MOST_LEVELS, MOST_SAMPLES = 400, 1 << 24
-"""Bounds on the numbers of samples whose mu are computed, and on a number of samples."""
+MOST_LEVELS, MOST_PARTS, MOST_SAMPLES = 200, 50_000, 1 << 24
+"""Bounds on the numbers of samples whose mu are computed, on the steps of the search, and on a number of samples."""
+
+ROUNDING = 1e-12
+"""How far floats may be off."""
 
 
 @dataclass(frozen=True)
@@ -87,48 +89,108 @@ def log(x: Fraction | None) -> float:
 
 def piece(task: Task, first: int = 1, last: int = 1) -> Piece | None:
     """The samples from first to last; without a settling limit the only piece. None where it is seen to be empty."""
-    strip, box = task.strip, task.box
-    if strip is None:
-        return None
-    ends, longest = Interval(*strip.inner), box.h[1]
-    if task.settle_to is not None:
-        found = level(task.loop, task.settle_to, last)
-        if found is None or not found.overlaps(ends):
+    if task.settle_to is None:
+        return _between(task, first, last, 0.0, math.inf)
+    found = level(task.loop, task.settle_to, last)
+    return None if found is None else _between(task, first, last, float(found.lower), float(found.upper))
+
+
+def roughly(task: Task, first: int, last: int) -> Piece | None:
+    """A polyhedron that holds that of the same samples, by the lines below sigma that are known."""
+    if task.settle_to is None:
+        return piece(task, first, last)
+    within = math.exp(log(task.settle_to) / last)
+    low, high = 0.0, math.inf
+    for height, fall in _lines(task):
+        if fall > 0:
+            low = max(low, (height - within) / fall)
+        elif fall < 0:
+            high = min(high, (height - within) / fall)
+        elif height > within:
             return None
-        ends = Interval(max(ends.lower, found.lower), min(ends.upper, found.upper))
-        if task.within is not None:
-            longest = min(task.within / first, longest or task.within)
-    scale = log(task.gamma_function.mid)
-    low, high = log(ends.lower) + scale, log(ends.upper) + scale
-    gamma, h = (log(box.gamma_least), log(box.gamma_sure)), (log(box.h[0]), log(longest))
-    return Piece(first, last, float(task.design.alpha), low, high, gamma, h, task.moves)
+    return _between(task, first, last, low * (1 - ROUNDING), high * (1 + ROUNDING))
+
+
+def _lines(task: Task) -> list[tuple[float, float]]:
+    return [(float(line.height), float(line.fall)) for line in known_lines(task.loop)]
+
+
+def _between(task: Task, first: int, last: int, low: float, high: float) -> Piece | None:
+    """The piece whose mu, those of the strip, lie between low and high."""
+    strip, box = task.strip, task.box
+    if strip is None or low > high:
+        return None
+    longest, scale = log(box.h[1]), log(task.gamma_function.mid)
+    if task.within is not None:
+        longest = min(longest, log(task.within) - math.log(first))
+    logs = (math.log(x) if 0 < x < math.inf else math.copysign(math.inf, x - 1) for x in (low, high))
+    low_log, high_log = max(log(strip.inner[0]), next(logs)), min(log(strip.inner[1]), next(logs))
+    gamma, h = (log(box.gamma_least), log(box.gamma_sure)), (log(box.h[0]), longest)
+    alpha = float(task.design.alpha)
+    return Piece(first, last, alpha, low_log + scale, high_log + scale, gamma, h, task.moves)
 
 
 def best_piece(task: Task) -> Best | None:
-    """Where the best point lies; None where no piece holds a point, or none was found within the work allowed."""
+    """Where the best point lies; None where no piece holds a point, or none was found within the work allowed.
+
+    The samples are halved, what looks best first, until one number of them is; its mu are computed then, and lines
+    that touch sigma there tell more of the others.
+    """
     if task.settle_to is None:
         only = piece(task)
         return None if only is None or only.is_empty else Best(only, only.cost(task.objective))
-    first, last = samples_range(task)
-    open_parts: list[tuple[float, int, int, Piece]] = []
+    queue = _Queue(task)
+    queue.push(*samples_range(task))
+    best: Piece | None = None
+    levels = 0
+    for _ in range(MOST_PARTS):
+        if not queue.parts or levels > MOST_LEVELS:
+            break
+        bound, first, last = queue.pop()
+        if best is not None and best.cost(task.objective) <= bound:
+            return Best(best, best.cost(task.objective))
+        if queue.push(first, last, above=bound):
+            continue
+        if first < last:
+            middle = (first + last) // 2
+            queue.push(first, middle)
+            queue.push(middle + 1, last)
+            continue
+        levels += 1
+        found = piece(task, first, first)
+        mu = level(task.loop, task.settle_to, first)
+        if mu is not None:
+            touch(task.loop, mu)
+        if found is not None and not found.is_empty:
+            best = found if best is None else min(best, found, key=lambda x: x.cost(task.objective))
+    if best is None:
+        return None
+    return Best(best, min([best.cost(task.objective), *(part[0] for part in queue.parts)]))
 
-    def consider(k: int, n: int) -> None:
-        part = piece(task, k, n) if k <= n else None
-        if part is not None and not part.is_empty:
-            heapq.heappush(open_parts, (part.cost(task.objective), k, n, part))
 
-    consider(first, last)
-    for _ in range(MOST_LEVELS):
-        if not open_parts:
-            return None
-        bound, k, n, part = heapq.heappop(open_parts)
-        if k == n:
-            return Best(part, bound)
-        middle = (k + n) // 2
-        consider(k, middle)
-        consider(middle + 1, n)
-    ended = [entry for entry in open_parts if entry[1] == entry[2]]
-    return Best(min(ended)[3], min(open_parts)[0]) if ended else None
+class _Queue:
+    """Numbers of samples, what looks best first."""
+
+    def __init__(self, task: Task) -> None:
+        self.task = task
+        self.parts: list[tuple[float, int, int]] = []
+
+    def push(self, first: int, last: int, above: float = -math.inf) -> bool:
+        """Enter the samples from first to last by what the known lines say, if that is certainly above a cost; whether
+        that was so, or nothing is left of them.
+        """
+        part = roughly(self.task, first, last) if first <= last else None
+        if part is None or part.is_empty:
+            return True
+        cost = part.cost(self.task.objective)
+        if not cost > above + ROUNDING:
+            return False
+        heapq.heappush(self.parts, (cost, first, last))
+        return True
+
+    def pop(self) -> tuple[float, int, int]:
+        """The samples that look best, and what they cost at least."""
+        return heapq.heappop(self.parts)
 
 
 def samples_range(task: Task) -> tuple[int, int]:

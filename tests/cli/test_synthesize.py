@@ -10,6 +10,7 @@ from subprocess import CompletedProcess
 import pytest
 
 from fomas_verify.checker import Malformed, check
+from fomas_verify.cli.app import main
 from fomas_verify.design import read_design
 
 Verify = Callable[..., CompletedProcess[str]]
@@ -186,3 +187,22 @@ def test_a_design_is_never_overwritten_but_the_same_answer_may_be_written_again(
     assert path.read_bytes() == before
     assert list(tmp_path.rglob("*.tmp")) == []
     assert sorted(x.name for x in tmp_path.iterdir()) == ["out", "plant.toml"]
+
+
+@pytest.mark.parametrize("condition", ["repaired-closed-form", "as-stated", "gain-bound", "consensus"])
+@pytest.mark.parametrize("objective", ["fastest", "most-robust"])
+def test_the_other_strips(tmp_path: Path, capsys: pytest.CaptureFixture[str], condition: str, objective: str) -> None:
+    """What is said in JSON is what the certificate says, and the checker accepts it; no strip is taken for another."""
+    path = design(tmp_path, "h = [0.5, 2]\ngamma = [0.01, 1]\nsettle_within = 90")
+    path.write_text(path.read_text() + '[gate]\nrequire = ["average-consensus"]\n')
+    call = ["synthesize", str(path), "--direct", "--json", "--objective", objective, "--condition", condition]
+    assert main([*call, "-o", str(tmp_path / "found.toml")]) == 0
+    said, document = json.loads(capsys.readouterr().out), json.loads((tmp_path / "found.json").read_text())
+    task = document["task"]
+    assert said["condition"] == condition == task["condition"]["id"]
+    assert (said["found"]["gamma"], said["found"]["h"]) == (document["design"]["gamma"], document["design"]["h"])
+    best = [claim["witness"]["bound"] for claim in task["claims"] if claim["id"] == "best"]
+    assert best == ([] if said["bound"] is None else [said["bound"]])
+    if best and objective == "fastest":
+        assert Fraction(best[0]) < Fraction(said["found"]["h"]) * said["found"]["samples"]
+    assert check(json.dumps(document).encode()).exit_status == 0
