@@ -11,6 +11,7 @@ from fomas_verify.enclosure.interval import Interval
 from fomas_verify.enclosure.real import power_of, square_root
 from fomas_verify.exact.rational import format_rational
 from fomas_verify.kernel.memory import one_step_weight
+from fomas_verify.region.errors import UndecidedRegionError
 from fomas_verify.region.refutation import as_given, blocks
 from fomas_verify.region.synthesize import synthesize
 from fomas_verify.region.task import Objective, Task
@@ -28,16 +29,24 @@ def clash(task: Task) -> str | None:
         return _no_room(timeless)
     if task.within is None or blocks(as_given(task)) is None:
         return None
-    fastest = synthesize(replace(timeless, objective=Objective.FASTEST))
+    bound = _least_time(replace(timeless, objective=Objective.FASTEST))
     said = f"settle_within = {plain(task.within)}"
     named = [*_names(task, upper=True), *_names(task, upper=False)]
     others = f" with {' and '.join(named)}" if named else ""
-    if fastest.bound is None:
+    if bound is None:
         return f"{said}{others} leaves no number of samples"
-    least = rounded_down(fastest.bound, DIGITS)
+    least = rounded_down(bound, DIGITS)
     return (
         f"{said} leaves no number of samples: settling to {plain(task.settle_to or 0)}{others} takes {least} s at least"
     )
+
+
+def _least_time(task: Task) -> Fraction | None:
+    """A time that settling certainly takes longer than; None where none was found."""
+    try:
+        return synthesize(task).bound
+    except UndecidedRegionError:
+        return None
 
 
 def _no_mu(task: Task) -> str:

@@ -14,7 +14,6 @@ from fractions import Fraction
 from fomas_verify.enclosure.interval import Interval
 from fomas_verify.enclosure.real import power_of
 from fomas_verify.region.clash import clash
-from fomas_verify.region.errors import UndecidedRegionError
 from fomas_verify.region.levels import enclosed_level, level
 from fomas_verify.region.model import Condition, Region
 from fomas_verify.region.task import Objective, Task, require_complete
@@ -86,7 +85,7 @@ def _room(task: Task) -> Room:
         task = replace(task, limits=replace(task.limits, settle_within=None, u_max=None))
     peak = task.peak if task.limits.u_max is not None else None
     if task.strip is None or best_piece(task) is None:
-        return Room(task.condition, (), False, _clash(task), peak)
+        return Room(task.condition, (), False, clash(task), peak)
     if task.settle_to is None:
         only = _polyhedron(task, None)
         return Room(task.condition, () if only is None else (only,), False, None, peak)
@@ -101,13 +100,6 @@ def _room(task: Task) -> Room:
         if _whole(task, k):
             return Room(task.condition, tuple(pieces), False, None, peak)
     return Room(task.condition, tuple(pieces), last > first + MOST_SAMPLES, None, peak)
-
-
-def _clash(task: Task) -> str | None:
-    try:
-        return clash(task)
-    except UndecidedRegionError:
-        return None
 
 
 def _whole(task: Task, samples: int) -> bool:

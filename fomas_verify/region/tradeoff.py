@@ -14,7 +14,7 @@ from fractions import Fraction
 from fomas_verify.region.levels import fewest_samples, known_lines, level, touch
 from fomas_verify.region.task import Objective, Task
 
-MOST_LEVELS, MOST_PARTS, MOST_SAMPLES = 200, 50_000, 1 << 24
+MOST_LEVELS, MOST_PARTS, MOST_SAMPLES = 200, 20_000, 1 << 24
 """Bounds on the numbers of samples whose mu are computed, on the steps of the search, and on a number of samples."""
 
 ROUNDING = 1e-12

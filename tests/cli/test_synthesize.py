@@ -206,3 +206,15 @@ def test_the_other_strips(tmp_path: Path, capsys: pytest.CaptureFixture[str], co
     if best and objective == "fastest":
         assert Fraction(best[0]) < Fraction(said["found"]["h"]) * said["found"]["samples"]
     assert check(json.dumps(document).encode()).exit_status == 0
+
+
+def test_what_is_proved_to_be_impossible_is_so_where_words_are_hard_to_find(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The least settling time is not found there within the work allowed; the proof does not need it."""
+    path = tmp_path / "plant.toml"
+    graph = '[graph]\nfamily = "star"\nagents = 4\n'
+    path.write_text(f'alpha = 0.9\nsettle_to = "1e-300"\n{graph}[limits]\nh = [7, "1e300"]\nsettle_within = 7\n')
+    assert main(["synthesize", str(path), "--condition", "consensus", "-o", str(tmp_path / "none.toml")]) == 1
+    assert "settle_within = 7 with h <= 1e+300 and h >= 7 leaves no number of samples" in capsys.readouterr().out
+    assert check((tmp_path / "none.json").read_bytes()).exit_status == 0
