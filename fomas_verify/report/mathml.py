@@ -40,6 +40,8 @@ _STYLED = (
 
 def mathml(source: str, *, display: bool = False) -> str:
     """A formula; raises `MissingExtraError` where latex2mathml is not installed."""
+    if r"\displaystyle" in source:
+        source = source.replace(r"\frac", r"\dfrac")
     for old, new in _REPLACED:
         source = source.replace(old, new)
     if display:

@@ -67,6 +67,7 @@ class Reproduction:
     command: str
     version: str
     flint: str
+    sympy: str
     design_file: str
     design_digest: str | None
     certificate_digest: str
@@ -225,6 +226,7 @@ def _reproduction(design: Design, certificate: str, answer: Checked, command: st
         command=command,
         version=version("fomas_verify"),
         flint=version("python-flint"),
+        sympy=version("sympy"),
         design_file=source.name,
         design_digest=hashlib.sha256(source.read_bytes()).hexdigest() if source.is_file() else None,
         certificate_digest=hashlib.sha256(certificate.encode()).hexdigest(),

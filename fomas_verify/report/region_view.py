@@ -27,7 +27,7 @@ STATEMENTS = {
     Condition.CLOSED_FORM: Tex(r"$1-2\mu\lambda_2(1-\mu\Delta_{\max})\le(2^\alpha-1)^2$ and (15)"),
     Condition.REPAIRED: Tex(r"$\sigma\le2^\alpha-1$ and (15)"),
     Condition.GAIN_BOUND: Tex(r"(15)"),
-    Condition.CONSENSUS: Tex(r"consensus: $0<\mu<\mu^\ast$"),
+    Condition.CONSENSUS: Tex(r"$0<\mu<\mu^\ast$"),
 }
 _DRAWN = (Condition.CONSENSUS, Condition.GAIN_BOUND, Condition.AS_STATED, Condition.REPAIRED, Condition.CLOSED_FORM)
 
