@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from pathlib import Path
 from types import FrameType
-from typing import TYPE_CHECKING, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import click
 
@@ -38,8 +38,18 @@ def share(_: click.Context, __: click.Parameter, value: str) -> Fraction:
     return found
 
 
+class NamedPath(click.Path):
+    """A path that is not empty: an unset variable of a script must not stand for the current folder."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """The path."""
+        if value == "":
+            self.fail("expected a file or folder, got an empty path; `.` is the current folder", param, ctx)
+        return super().convert(value, param, ctx)
+
+
 @click.command("gate")
-@click.argument("paths", nargs=-1, required=True, type=FILE, metavar="PATH...")
+@click.argument("paths", nargs=-1, required=True, type=NamedPath(path_type=Path), metavar="PATH...")
 @require_option
 @click.option("-j", "--jobs", type=click.IntRange(1, 512), metavar="N", help="processes  [default: a processor each]")
 @click.option("--junit", type=FILE, metavar="FILE", help="write the answers as JUnit XML")

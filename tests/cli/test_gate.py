@@ -199,6 +199,8 @@ def test_an_output_takes_no_designs_place(gate: Gate, tmp_path: Path, option: st
     "arguments",
     [
         [],
+        [""],
+        ["examples", ""],
         ["examples", "--jobs", "0"],
         ["examples", "--jobs", "x"],
         ["examples", "--require", "gain"],
