@@ -100,7 +100,7 @@ def sigma_sign(graph: Graph, alpha: Fraction, mu: Fraction, exact: bool = True) 
     box = first_threshold(alpha, _BITS)
     if quick_sign(facts.sigma_form(box.lower**2, mu), _BITS, (1,)) == 1:
         return 1
-    if quick_sign(facts.sigma_form(box.upper**2, mu), _BITS, (-1,)) == -1:
+    if quick_sign(facts.sigma_form(box.upper**2, mu), _BITS) == -1:
         return -1
     if not exact:
         return None
