@@ -132,7 +132,7 @@ def _header(module: str, remarks: Sequence[str]) -> str:
         f"    coqc -R PROOFS Fomas -w -ambiguous-paths {module}.v{lines} *)\n"
         "From Interval Require Import Tactic.\n"
         "From Fomas Require Import Design.Claims Design.Forms Design.Directions Design.Gain.\n"
-        "From Fomas Require Import Design.Spectrum Design.Step Design.Samples Design.Tail.\n"
+        "From Fomas Require Import Design.Spectrum Design.Step Design.Samples Design.Tail Design.Trajectory.\n"
         "Import ListNotations.\n"
         "Open Scope R_scope."
     )

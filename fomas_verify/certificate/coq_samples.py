@@ -140,12 +140,12 @@ def norm_bound_by_samples(chapter: Chapter) -> list[Step]:
     use = f"refine (norm_bound_from_phi agents graph alpha gamma h {BALANCED} range _)."
     loops = "control_norm_bound agents graph alpha gamma h"
     return [
-        *_kernel(chapter, run, r),
-        _definition("phi_cells : list (list cell)", _list(map(_cells, phi))),
-        _definition("power_cells : list (list cell)", _list(map(_cells, p))),
-        _definition("phi_bounds : list bound", _list(x.text for x in shown[:last])),
-        _definition("power_bounds : list bound", _list(x.text for x in shown[last:])),
-        _definition("last_bound : bound", f"({carried.text})%Z"),
+        *kernel(chapter, run, r),
+        definition("phi_cells : list (list cell)", listed(map(listed_cells, phi))),
+        definition("power_cells : list (list cell)", listed(map(listed_cells, p))),
+        definition("phi_bounds : list bound", listed(x.text for x in shown[:last])),
+        definition("power_bounds : list bound", listed(x.text for x in shown[last:])),
+        definition("last_bound : bound", f"({carried.text})%Z"),
         Step("samples_bounded", statement, proof),
         about_loops(chapter, "norm_bound", loops, use, "samples_bounded", CLAIM),
     ]
@@ -180,37 +180,44 @@ def norm_bound_exceeded(chapter: Chapter) -> list[Step]:
         "    ltac:(check) ltac:(check) ltac:(check)). unfold alpha. lra."
     )
     statement = f"~ bounded_on_1perp agents (Phi alpha agents (perron agents graph mu) {k}) 1"
-    use = f"refine (norm_bound_false_at agents graph alpha gamma h {k} ltac:(unfold agents; lia) graph_assumption range _)."
+    use = (
+        f"refine (norm_bound_false_at agents graph alpha gamma h {k} ltac:(unfold agents; lia)\n"
+        "    graph_assumption range _)."
+    )
     loops = "~ control_norm_bound agents graph alpha gamma h"
     return [
-        *_kernel(chapter, run, r),
-        _definition("sample_cells : list cell", _cells(cells)),
+        *kernel(chapter, run, r),
+        definition("sample_cells : list cell", listed_cells(cells)),
         Step("exceeded", statement, proof),
         about_loops(chapter, "no_norm_bound", loops, use, "exceeded", CLAIM, "refuted"),
     ]
 
 
-def _kernel(chapter: Chapter, run: Run, r: Sequence[Pair]) -> list[Step]:
+def kernel(chapter: Chapter, run: Run, r: Sequence[Pair], prefix: str = "") -> list[Step]:
+    """The definitions of the kernel's numbers, and the lemma that encloses the powers."""
     proof = (
-        "unfold power_numbers. cbn [powers_within].\n"
-        "  repeat (apply conj; [rewrite INR_IZR_INZ; cbn [Z.of_nat Pos.of_succ_nat Pos.succ]; unfold alpha, scale;\n"
-        f"    split; {chapter.numbers.by_interval}|]). exact I."
+        f"unfold {prefix}power_numbers. cbn [powers_within].\n"
+        f"  repeat (apply conj; [rewrite INR_IZR_INZ; cbn [Z.of_nat Pos.of_succ_nat Pos.succ];\n"
+        f"    unfold alpha, {prefix}scale; split; {chapter.numbers.by_interval}|]). exact I."
     )
     return [
-        _definition("scale : Z", str(SCALE)),
-        _definition("power_numbers : list (Z * Z)", _list(map(str, run.powers))),
-        _definition("resolvent_numbers : list (Z * Z)", _list(map(str, r))),
-        Step("powers_enclosed", "powers_within scale alpha 1 power_numbers", proof),
+        definition(f"{prefix}scale : Z", str(SCALE)),
+        definition(f"{prefix}power_numbers : list (Z * Z)", listed(map(str, run.powers))),
+        definition(f"{prefix}resolvent_numbers : list (Z * Z)", listed(map(str, r))),
+        Step(f"{prefix}powers_enclosed", f"powers_within {prefix}scale alpha 1 {prefix}power_numbers", proof),
     ]
 
 
-def _definition(typed: str, value: str) -> Step:
+def definition(typed: str, value: str) -> Step:
+    """A definition among the steps."""
     return Step("", "", f"Definition {typed} := {value}.")
 
 
-def _list(items: Iterable[str]) -> str:
+def listed(items: Iterable[str]) -> str:
+    """A list of integers, or of what is made of them."""
     return "[" + ";\n  ".join(items).replace("%Z", "") + "]%Z"
 
 
-def _cells(cells: Iterable[Cell]) -> str:
-    return _list(f"([{'; '.join(map(str, cell.centre))}], {cell.error})" for cell in cells)
+def listed_cells(cells: Iterable[Cell]) -> str:
+    """A list of cells."""
+    return listed(f"([{'; '.join(map(str, cell.centre))}], {cell.error})" for cell in cells)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from fractions import Fraction
-from math import lcm
 
 from fomas_verify.certificate.coq_chapter import (
     BALANCED,
@@ -24,6 +23,7 @@ from fomas_verify.certificate.coq_factor import Table, factor, identity, stein
 from fomas_verify.certificate.coq_figures import Figures
 from fomas_verify.certificate.coq_samples import norm_bound_by_samples, norm_bound_exceeded
 from fomas_verify.certificate.coq_stability import falls_with_it, norm_bound_outside, spectrum
+from fomas_verify.certificate.coq_trajectory import trajectory_norm
 from fomas_verify.claims.verdict import Decision, Verdict
 from fomas_verify.enclosure.interval import round_down
 from fomas_verify.exact.matrix import apply
@@ -212,21 +212,6 @@ def _control_norm(chapter: Chapter) -> list[Step]:
     return [growth, about_loops(chapter, "no_norm_bound", f"~ {statement}", use, "growth", claim, "refuted")]
 
 
-def _trajectory_norm(chapter: Chapter) -> list[Step]:
-    claim, components = "trajectory-norm-bound", chapter.loop.design.components or ()
-    if len(components) != 1 or "norm_bound" not in chapter.known or not chapter.decided(claim, Verdict.PROVED):
-        return []
-    (x0,) = components
-    unit = lcm(*(x.denominator for x in x0))
-    statement = f"trajectory_norm_bound agents graph alpha gamma h {vector([int(x * unit) for x in x0])} {unit}"
-    given, bound = "", "norm_bound"
-    if chapter.numbers.gamma is None:
-        given, bound = "intros gamma h range given. ", "(norm_bound gamma h range given)"
-        statement = f"forall gamma h, design alpha gamma h -> mu_of alpha gamma h = mu ->\n    {statement}"
-    proof = f"{given}exact (norm_bound_trajectory _ _ _ _ _ _ _ {bound})."
-    return [Step("trajectory", statement, proof, claim, "proved")]
-
-
 BUILDERS: tuple[Callable[[Chapter], list[Step]], ...] = (
     _graph,
     _gain_bound,
@@ -242,5 +227,5 @@ BUILDERS: tuple[Callable[[Chapter], list[Step]], ...] = (
     _control_norm,
     norm_bound_by_samples,
     norm_bound_exceeded,
-    _trajectory_norm,
+    trajectory_norm,
 )

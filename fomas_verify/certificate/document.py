@@ -28,19 +28,24 @@ def certificate_text(
         "kind": "design",
         "design": design_object(design),
         "values": plain(values),
-        "claims": [
-            {
-                "id": claim.ID,
-                "verdict": decisions[claim.ID].verdict.value,
-                "statement": claim.STATEMENT,
-                "witness": plain(decisions[claim.ID].witness),
-            }
-            for claim in CLAIMS
-            if claim.ID in decisions
-        ],
+        "claims": claim_entries(decisions),
         "tool": {"name": TOOL, "version": version},
     }
     return dump(document) + "\n"
+
+
+def claim_entries(decisions: Mapping[str, Decision]) -> list[dict[str, Any]]:
+    """What is claimed of a design, in the order of the claims."""
+    return [
+        {
+            "id": claim.ID,
+            "verdict": decisions[claim.ID].verdict.value,
+            "statement": claim.STATEMENT,
+            "witness": plain(decisions[claim.ID].witness),
+        }
+        for claim in CLAIMS
+        if claim.ID in decisions
+    ]
 
 
 def design_object(named: Design | UncertainDesign | SwitchedDesign) -> dict[str, Any]:

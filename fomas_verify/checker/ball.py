@@ -4,6 +4,8 @@
 vector 1: their norm on R^N is their norm on 1perp. P is there D = P - J, J = 1 1^T / N, and D^k = P^k - J.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -11,10 +13,13 @@ from math import ceil, isqrt
 from operator import mul
 
 from fomas_verify.checker.graph import Rows
+from fomas_verify.checker.iteration import is_kept, iterated, squared
 from fomas_verify.checker.loop import Loop
+from fomas_verify.checker.packed import FEW, combinations
 
-_ITERATIONS = 30
+COARSE_BITS = 60
 _GUESS_BITS = 56
+_SQUARINGS = 4
 
 
 @dataclass(frozen=True)
@@ -32,7 +37,22 @@ class Ball:
     @cached_property
     def gram(self) -> Rows:
         """The lower triangle of X^T X, X the integers."""
-        return [[sum(map(mul, left, right)) for right in self.columns[: i + 1]] for i, left in enumerate(self.columns)]
+        if len(self.columns) < FEW:
+            return [
+                [sum(map(mul, left, right)) for right in self.columns[: i + 1]] for i, left in enumerate(self.columns)
+            ]
+        rows = combinations(list(zip(*self.columns, strict=True)), self.columns)
+        return [row[: i + 1] for i, row in enumerate(rows)]
+
+    @cached_property
+    def coarse(self) -> Ball:
+        """The same matrix, its integers no longer than a first test needs."""
+        return self if self.longest <= COARSE_BITS else fitted(self, COARSE_BITS)
+
+    @cached_property
+    def longest(self) -> int:
+        """The bits of the largest integer, an entry or the error."""
+        return max(self.error, *(max(abs(entry) for entry in column) for column in self.columns)).bit_length()
 
     @cached_property
     def square(self) -> int:
@@ -45,10 +65,9 @@ class Ball:
         shift = max(max(row[-1] for row in self.gram).bit_length() - _GUESS_BITS, 0)
         full = _whole([[entry >> shift for entry in row] for row in self.gram])
         vector = [(37 * i + 11) % 101 - 50 for i in range(len(full))]
-        for _ in range(_ITERATIONS):
-            image = [sum(map(mul, row, vector)) for row in full]
-            size = max(abs(entry) for entry in image).bit_length()
-            vector = [entry << _GUESS_BITS >> size for entry in image] if size else vector
+        vector = iterated(full, vector)
+        if not is_kept(full, vector):
+            vector = iterated(squared(full, _SQUARINGS), vector)
         image = [sum(map(mul, row, vector)) for row in _whole(self.gram)]
         size = sum(map(mul, vector, vector))
         return int(sum(map(mul, vector, image)) // size)
@@ -71,7 +90,7 @@ def _whole(lower: Rows) -> Rows:
 
 def fitted(ball: Ball, bits: int) -> Ball:
     """The same matrix, the largest integer (an entry or the error) of `bits` bits. Rigorous."""
-    shift = max(ball.error, *(max(abs(entry) for entry in column) for column in ball.columns)).bit_length() - bits
+    shift = ball.longest - bits
     if shift <= 0:
         columns = [[entry << -shift for entry in column] for column in ball.columns]
         return Ball(columns, ball.exponent + shift, ball.error << -shift)
@@ -86,8 +105,7 @@ def rounding(columns: Rows) -> int:
 
 def product(a: Ball, b: Ball, bits: int | None) -> Ball:
     """a b, rounded to integers of `bits` bits where given: (A + E)(B + F) - A B = (A + E) F + E B. Rigorous."""
-    rows = list(zip(*a.columns, strict=True))
-    columns = [[sum(map(mul, row, column)) for row in rows] for column in b.columns]
+    columns = combinations(a.columns, b.columns)
     error = a.size * b.error + a.error * (b.size + b.error)
     result = Ball(columns, a.exponent + b.exponent, error)
     return result if bits is None else fitted(result, bits)

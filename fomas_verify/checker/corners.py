@@ -10,11 +10,14 @@ from functools import lru_cache
 from fomas_verify.checker.definite import least_sign, quick_sign
 from fomas_verify.checker.facts import BITS, Facts
 from fomas_verify.checker.graph import Graph
-from fomas_verify.checker.powers import Enclosure, first_threshold, point, quotient, second_threshold
+from fomas_verify.checker.iteration import iterated, squared
+from fomas_verify.checker.powers import Enclosure, first_threshold, outward, point, quotient, second_threshold
 from fomas_verify.checker.thresholds import beta_below_first, beta_below_second, sigma_below_first
 
 MAX_SIGN_WORK = 2**30
 _RELATIVE = 2**60
+_SQUARINGS = 10
+_SIMPLE = 2**8
 _BITS = BITS[0]
 
 
@@ -25,8 +28,16 @@ def lambda2(graph: Graph) -> Enclosure:
     On a balanced graph every eigenvalue of L_s is at most 2 D (Gershgorin).
     """
     facts = Facts(graph.design.at(Fraction(1, 2), Fraction(1)), graph)
+    steps = MAX_SIGN_WORK // graph.agents**3
     lower, upper = Fraction(0), 2 * graph.degree_max
-    for _ in range(MAX_SIGN_WORK // graph.agents**3):
+    if steps > _SQUARINGS:
+        upper = _lambda2_above(graph)
+        near = upper - upper / (2 * _RELATIVE)
+        if quick_sign(facts.gap_form(near), _BITS, (1,)) == 1:
+            simple = (upper / graph.degree_max).limit_denominator(_SIMPLE) * graph.degree_max
+            is_exact = near < simple <= upper and least_sign(facts.gap_form(simple)) == 0
+            return point(simple) if is_exact else Enclosure(near, upper)
+    for _ in range(steps):
         if upper - lower <= lower / _RELATIVE:
             break
         middle = (lower + upper) / 2 if 2 * lower >= upper else upper / 4 if lower == 0 else 2 * lower
@@ -37,6 +48,22 @@ def lambda2(graph: Graph) -> Enclosure:
             return point(middle)
         lower, upper = (middle, upper) if sign > 0 else (lower, middle)
     return Enclosure(lower, upper)
+
+
+def _lambda2_above(graph: Graph) -> Fraction:
+    """The Rayleigh quotient of where power iteration leads on 1perp, rounded up: near lambda2 but in rare cases.
+
+    With S = d (L + L^T) and c = 4 d D, N (c I - S) - c 1 1^T is >= 0, and 0 on the vector 1.
+    """
+    n, rows = graph.agents, graph.laplacian
+    c = int(4 * graph.denominator * graph.degree_max)
+    gap = [[n * (c * (i == j) - rows[i][j] - rows[j][i]) - c for j in range(n)] for i in range(n)]
+    vector = [(37 * i + 11) % 101 - 50 for i in range(n)]
+    vector = iterated(squared(gap, _SQUARINGS), vector)
+    total = sum(vector)
+    centred = [Fraction(n * entry - total) for entry in vector]
+    quotient = graph.quotients(centred if any(centred) else [Fraction(1), Fraction(-1), *[Fraction(0)] * (n - 2)])[0]
+    return outward(quotient, quotient, _BITS).upper
 
 
 def first_sign(graph: Graph, alpha: Fraction, mu: Fraction, exact: bool = True) -> int | None:
@@ -61,13 +88,19 @@ def second_sign(graph: Graph, alpha: Fraction, mu: Fraction, exact: bool = True)
     return beta_below_second(facts) if 0 < alpha < 1 else facts.compare_lambda2_with(gap.lower)
 
 
+def sigma_is_below(graph: Graph, alpha: Fraction, mu: Fraction) -> bool:
+    """Whether sigma < 2^alpha - 1 is seen."""
+    facts = _corner(graph, alpha, mu)
+    return quick_sign(facts.sigma_form(first_threshold(alpha, _BITS).lower ** 2, mu), _BITS, (1,)) == 1
+
+
 def sigma_sign(graph: Graph, alpha: Fraction, mu: Fraction, exact: bool = True) -> int | None:
     """The sign of (2^alpha - 1) - sigma."""
     facts = _corner(graph, alpha, mu)
     box = first_threshold(alpha, _BITS)
-    if quick_sign(facts.sigma_form(box.lower**2, mu), _BITS) == 1:
+    if quick_sign(facts.sigma_form(box.lower**2, mu), _BITS, (1,)) == 1:
         return 1
-    if quick_sign(facts.sigma_form(box.upper**2, mu), _BITS) == -1:
+    if quick_sign(facts.sigma_form(box.upper**2, mu), _BITS, (-1,)) == -1:
         return -1
     if not exact:
         return None

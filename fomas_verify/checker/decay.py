@@ -5,13 +5,13 @@ D = P - J. Source: docs/certificate-format.md, section 3; theory, section 7 (rat
 
 from fractions import Fraction
 from functools import lru_cache
-from math import ceil, isqrt
+from math import ceil
 
 from fomas_verify.checker.ball import Ball, deviation, exact_deviation, power, product
 from fomas_verify.checker.definite import least_sign
 from fomas_verify.checker.facts import BITS, Facts, settle
 from fomas_verify.checker.graph import limit_size
-from fomas_verify.checker.norms import compare_norm_with, measured, norm_upper
+from fomas_verify.checker.norms import compare_norm_with, measured, norm_lower, norm_upper
 from fomas_verify.checker.powers import point
 from fomas_verify.checker.ruling import Undecided, need, need_that
 
@@ -19,6 +19,7 @@ MAX_POWER = 2**64
 MAX_EXACT_BITS = 2**15
 MAX_PRODUCT_WORK = 2**35
 SCAN_BITS = 256
+ROUGH_BITS = 64
 BASES = (4, 32, 512, 8192)
 
 
@@ -113,7 +114,7 @@ def _rate_sign(facts: Facts, kappa: Fraction, rho: Fraction) -> int | None:
     if kappa == 1:
         return first
     budget = Budget(facts.design.agents)
-    sign = _by_levels(facts, BITS[0], BASES[0], kappa, rho, budget, precise=False)
+    sign = _by_levels(facts, ROUGH_BITS, BASES[0], kappa, rho, budget, precise=False)
     if sign is None and _exceeded(facts, kappa, rho, budget):
         return -1
     attempts = (_by_levels(facts, bits, base, kappa, rho, budget) for bits in BITS for base in BASES[1:])
@@ -167,7 +168,7 @@ def _by_levels(
 def _ends(ball: Ball) -> tuple[Fraction, Fraction]:
     """Bounds of norm M that cost little."""
     size = Fraction(2) ** ball.exponent
-    return (isqrt(ball.stretch) - ball.error) * size, ball.frobenius * size
+    return norm_lower(ball) * size, ball.frobenius * size
 
 
 class _Digits:

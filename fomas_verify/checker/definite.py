@@ -37,8 +37,8 @@ def least_sign(rows: Matrix) -> int:
     return exact_sign(rows, 1, lambda entry: (entry > 0) - (entry < 0))
 
 
-def quick_sign(rows: Matrix, bits: int) -> int | None:
-    """1 or -1 if the least eigenvalue is certainly positive or negative, else None.
+def quick_sign(rows: Matrix, bits: int, signs: tuple[int, ...] = (1, -1)) -> int | None:
+    """1 or -1 if the least eigenvalue is certainly positive or negative, else None; only `signs` are looked for.
 
     With B the matrix scaled to diagonal entries in [1, 4) (a congruence: signs stay) and c > 0:
     if B - cI = L D L^T + E with D > 0 and norm E <= c, then B >= L D L^T > 0. If a leading block of B + cI is
@@ -49,7 +49,7 @@ def quick_sign(rows: Matrix, bits: int) -> int | None:
     if min(diagonal) <= 0:
         return -1 if min(diagonal) < 0 else None
     scaled = _scaled(rows, [(entry.bit_length() - 1) // 2 for entry in diagonal], bits)
-    return next((sign for sign in (1, -1) if _shows(scaled, sign, bits)), None)
+    return next((sign for sign in signs if _shows(scaled, sign, bits)), None)
 
 
 def _scaled(rows: Matrix, halves: list[int], bits: int) -> list[list[int]]:

@@ -1,6 +1,6 @@
 """The certificate as data: its schema, read from parsed JSON with the path of every defect.
 
-Source: docs/certificate-format.md, sections 1 to 4, 7, 8 and 10.
+Source: docs/certificate-format.md, sections 1 to 4 and 7 to 10.
 """
 
 from dataclasses import dataclass
@@ -19,6 +19,7 @@ from fomas_verify.checker.switching_form import (
     read_switched_conditions,
     read_switched_values,
 )
+from fomas_verify.checker.task_form import Task, read_task
 from fomas_verify.checker.text import Malformed, array, expected, fields, parse, string
 from fomas_verify.checker.value_form import Value, read_values
 from fomas_verify.checker.witness import read_witness
@@ -43,6 +44,7 @@ class Document:
     design: Design | UncertainDesign | SwitchedDesign
     values: tuple[Value, ...]
     claims: tuple[Claim | Condition | SwitchedClaim | SwitchedCondition, ...]
+    task: Task | None = None
 
 
 def read_document(data: bytes) -> Document:
@@ -57,10 +59,12 @@ def read_document(data: bytes) -> Document:
     if isinstance(whole, dict) and "format" in whole:
         # Of another format other keys are expected.
         _literal(whole["format"], "$.format", FORMAT)
-    top = fields(whole, "$", ("format", "kind", "design", "values", "claims", "tool"))
+    top = fields(whole, "$", ("format", "kind", "design", "values", "claims", "tool"), ("task",))
     kind = top["kind"]
-    if kind not in ("design", "region"):
-        raise expected("$.kind", '"design" or "region"', kind)
+    if kind not in ("design", "region", "synthesis"):
+        raise expected("$.kind", '"design", "region" or "synthesis"', kind)
+    if ("task" in top) != (kind == "synthesis"):
+        raise Malformed("$", 'expected a key "task" in a synthesis, and only there')
     tool = fields(top["tool"], "$.tool", ("name", "version"))
     _literal(tool["name"], "$.tool.name", "fomas_verify")
     if len(string(tool["version"], "$.tool.version")) > 64:
@@ -71,6 +75,8 @@ def read_document(data: bytes) -> Document:
         family = read_family(top["design"], "$.design")
         fields(top["values"], "$.values", ())
         return Document(family, (), read_conditions(top["claims"], "$.claims", family.agents))
+    if kind == "synthesis":
+        return _synthesis(top)
     design = read_design(top["design"], "$.design")
     values = read_values(top["values"], "$.values", design.agents)
     return Document(design, values, _claims(top["claims"], "$.claims", design))
@@ -83,6 +89,18 @@ def _switched(top: dict[str, object], of_region: bool) -> Document:
         return Document(design, (), read_switched_conditions(top["claims"], "$.claims", design))
     values = read_switched_values(top["values"], "$.values", design.agents)
     return Document(design, values, read_switched_claims(top["claims"], "$.claims", design))
+
+
+def _synthesis(top: dict[str, object]) -> Document:
+    """A certificate of a synthesis: what is said of the design that was found, and of the task."""
+    design = read_family(top["design"], "$.design")
+    task = read_task(top["task"], "$.task", design.agents)
+    if design.mu is None and (design.gamma is None or design.h is None):
+        fields(top["values"], "$.values", ())
+        array(top["claims"], "$.claims", "an empty array, as the design has no mu", 0)
+        return Document(design, (), (), task)
+    claims = _claims(top["claims"], "$.claims", design) if top["claims"] != [] else ()
+    return Document(design, read_values(top["values"], "$.values", design.agents), claims, task)
 
 
 def _literal(value: object, path: str, text: str) -> None:

@@ -18,6 +18,11 @@ _SLACKS = (30, 12, 6, 2)
 
 def compare_norm(ball: Ball, lower: int, upper: int, bits: int) -> int | None:
     """1 if norm M < s, -1 if norm M > s, None if neither is seen, for lower <= s / 2^exponent <= upper. Rigorous."""
+    if ball.coarse is not ball:
+        shift = ball.coarse.exponent - ball.exponent
+        sign = compare_norm(ball.coarse, lower >> shift, -(-upper >> shift), _COARSE_BITS)
+        if sign is not None:
+            return sign
     if ball.frobenius < lower:
         return 1
     above = upper + ball.error
@@ -26,10 +31,10 @@ def compare_norm(ball: Ball, lower: int, upper: int, bits: int) -> int | None:
     if isqrt(ball.stretch) > above:
         return -1
     below = lower - ball.error
-    for width in (_COARSE_BITS, bits):
-        if below > 0 and quick_sign(_shifted(ball.gram, below**2), width) == 1:
+    for width in sorted({min(_COARSE_BITS, bits), bits}):
+        if below > 0 and quick_sign(_shifted(ball.gram, below**2), width, (1,)) == 1:
             return 1
-        if quick_sign(_shifted(ball.gram, above**2), width) == -1:
+        if quick_sign(_shifted(ball.gram, above**2), width, (-1,)) == -1:
             return -1
     return None
 
@@ -48,6 +53,7 @@ def compare_norm_with(ball: Ball, s: Fraction, bits: int) -> int | None:
 
 def norm_upper(ball: Ball, precise: bool = True) -> int:
     """An upper bound of norm M / 2^exponent: to 2^-30 of it or to its error, less so where not `precise`. Rigorous."""
+    whole, ball = ball, ball.coarse
     guess = isqrt(ball.stretch) + 1
     below = above = guess
     for slack in _SLACKS[not precise :]:
@@ -59,7 +65,13 @@ def norm_upper(ball: Ball, precise: bool = True) -> int:
     while precise and (above - below) >> max(above.bit_length() - _SLACKS[0], 0) > 1:
         middle = (below + above) // 2
         below, above = (below, middle) if _is_above(ball, middle) else (middle, above)
-    return min(above + ball.error, ball.frobenius)
+    return min(above + ball.error << ball.exponent - whole.exponent, whole.frobenius)
+
+
+def norm_lower(ball: Ball) -> int:
+    """A lower bound of norm M / 2^exponent that costs little. Rigorous."""
+    coarse = ball.coarse
+    return isqrt(coarse.stretch) - coarse.error << coarse.exponent - ball.exponent
 
 
 def measured(ball: Ball, precise: bool = True) -> Ball:
@@ -69,7 +81,7 @@ def measured(ball: Ball, precise: bool = True) -> Ball:
 
 def _is_above(ball: Ball, bound: int) -> bool:
     """Whether bound > norm X is seen at few bits."""
-    return quick_sign(_shifted(ball.gram, bound**2), _COARSE_BITS) == 1
+    return quick_sign(_shifted(ball.gram, bound**2), _COARSE_BITS, (1,)) == 1
 
 
 def _shifted(gram: Rows, square: int) -> Rows:

@@ -4,12 +4,12 @@ Source: theory, section 3, peak control (the lemma); p_n = norm P^n on 1perp.
 """
 
 from functools import lru_cache
-from math import ceil, floor, isqrt
+from math import ceil, floor
 
 from fomas_verify.checker.ball import Ball, rounding
 from fomas_verify.checker.facts import Approximation, Facts, settle
 from fomas_verify.checker.loop import Loop
-from fomas_verify.checker.norms import compare_norm, norm_upper
+from fomas_verify.checker.norms import compare_norm, norm_lower, norm_upper
 from fomas_verify.checker.powers import Enclosure
 from fomas_verify.checker.samples import GUARD, Samples
 
@@ -99,7 +99,7 @@ class Operators:
         return self._times(self.power_upper(m), first) < last
 
     def _sign(self, ball: Ball, bounds: list[int], n: int, lower: int, upper: int) -> int | None:
-        if isqrt(ball.stretch) - ball.error > upper:
+        if norm_lower(ball) > upper:
             return -1
         bounds[n] = min(bounds[n], norm_upper(ball, precise=False))
         return 1 if bounds[n] < lower else compare_norm(ball, lower, upper, 2 * self.bits)

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 
-from fomas_verify.checker.corners import first_sign, second_sign, sigma_sign
+from fomas_verify.checker.corners import first_sign, second_sign, sigma_is_below, sigma_sign
 from fomas_verify.checker.definite import quick_sign
 from fomas_verify.checker.facts import BITS, Facts
 from fomas_verify.checker.gain import Gain
@@ -86,7 +86,9 @@ class Curve:
     def contracts(self, first: Fraction, last: Fraction) -> bool:
         """Whether sigma <= 2^alpha - 1; sigma is convex in mu."""
         mu = self.over(first, last)
-        return all(sigma_sign(self.graph, first, t, self.exact) in (0, 1) for t in {mu.lower, mu.upper})
+        if not self.exact:
+            return all(sigma_is_below(self.graph, first, t) for t in {mu.lower, mu.upper})
+        return all(sigma_sign(self.graph, first, t) in (0, 1) for t in {mu.lower, mu.upper})
 
     def expands(self, first: Fraction, last: Fraction) -> bool:
         """Whether sigma > 2^alpha - 1 at every alpha < 1; sigma changes by at most norm L times the change of mu."""
@@ -95,4 +97,4 @@ class Curve:
             return sigma_sign(self.graph, last, mu.lower, self.exact) in ((-1, 0) if last == 1 else (-1,))
         bound = first_threshold(last, _BITS).upper + self.graph.size * mu.radius
         facts = Facts(self.graph.design.at(last, mu.middle), self.graph)
-        return quick_sign(facts.sigma_form(bound**2, mu.middle), _BITS) == -1
+        return quick_sign(facts.sigma_form(bound**2, mu.middle), _BITS, (-1,)) == -1

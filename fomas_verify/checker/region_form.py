@@ -3,6 +3,7 @@
 Source: docs/certificate-format.md, section 8.
 """
 
+from collections.abc import Container
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -49,21 +50,27 @@ def read_conditions(value: object, path: str, agents: int) -> tuple[Condition, .
     conditions: dict[str, Condition] = {}
     for index, entry in enumerate(array(value, path, "an array of conditions")):
         here = f"{path}[{index}]"
-        given = fields(entry, here, ("id", "verdict", "statement", "witness"))
-        name = given["id"]
-        if not isinstance(name, str) or name not in CONDITIONS:
-            raise expected(f"{here}.id", f"one of {', '.join(CONDITIONS)}", name)
-        if name in conditions:
-            raise Malformed(f"{here}.id", f"{name} occurs twice")
-        verdict = given["verdict"]
-        if not isinstance(verdict, str) or verdict not in ("proved", "refuted"):
-            raise expected(f"{here}.verdict", '"proved" or "refuted"', verdict)
-        statement = string(given["statement"], f"{here}.statement")
-        witness = _witness(name, verdict, given["witness"], f"{here}.witness", agents)
-        conditions[name] = Condition(name, verdict, statement, *witness)
+        condition = read_condition(entry, here, agents, conditions)
+        conditions[condition.id] = condition
     if not conditions:
         raise Malformed(path, "expected at least one condition")
     return tuple(conditions.values())
+
+
+def read_condition(value: object, path: str, agents: int, taken: Container[str] = ()) -> Condition:
+    """One condition that is not among those taken, its form checked; raises `Malformed`."""
+    given = fields(value, path, ("id", "verdict", "statement", "witness"))
+    name = given["id"]
+    if not isinstance(name, str) or name not in CONDITIONS:
+        raise expected(f"{path}.id", f"one of {', '.join(CONDITIONS)}", name)
+    if name in taken:
+        raise Malformed(f"{path}.id", f"{name} occurs twice")
+    verdict = given["verdict"]
+    if not isinstance(verdict, str) or verdict not in ("proved", "refuted"):
+        raise expected(f"{path}.verdict", '"proved" or "refuted"', verdict)
+    statement = string(given["statement"], f"{path}.statement")
+    witness = _witness(name, verdict, given["witness"], f"{path}.witness", agents)
+    return Condition(name, verdict, statement, *witness)
 
 
 def _witness(
@@ -77,7 +84,7 @@ def _witness(
     else:
         given = fields(value, path, (), (*opens, "pairs") if name == "repaired" else opens)
         strip = None
-    pairs = _pairs(given["pairs"], f"{path}.pairs", agents) if "pairs" in given else ()
+    pairs = read_pairs(given["pairs"], f"{path}.pairs", agents) if "pairs" in given else ()
     here = f"{path}.alpha_opens"
     return strip, pairs, _opening(name, given["alpha_opens"], here, agents) if "alpha_opens" in given else None
 
@@ -88,10 +95,13 @@ def _opening(name: str, value: object, path: str, agents: int) -> Opening:
     lower, upper = (read_closed_order(given[key], f"{path}.{key}") for key in ("lower", "upper"))
     if not shown:
         return Opening(lower, upper, (), None)
-    return Opening(lower, upper, _pairs(given["pairs"], f"{path}.pairs", agents), rational(given["mu"], f"{path}.mu"))
+    return Opening(
+        lower, upper, read_pairs(given["pairs"], f"{path}.pairs", agents), rational(given["mu"], f"{path}.mu")
+    )
 
 
-def _pairs(value: object, path: str, agents: int) -> Pairs:
+def read_pairs(value: object, path: str, agents: int) -> Pairs:
+    """Pairs of vectors, their form checked; raises `Malformed`."""
     entries = array(value, path, "an array of pairs of vectors")
     if not 1 <= len(entries) <= MOST_PAIRS:
         raise expected(path, f"1 to {MOST_PAIRS} pairs", entries)

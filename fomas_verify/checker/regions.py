@@ -121,7 +121,13 @@ def _require_repaired_empty(facts: Facts, condition: Condition) -> None:
 
 
 def _pairs_sign(graph: Graph, alpha: Fraction, pairs: Pairs) -> int | None:
-    """The sign of (2^alpha - 1) minus the lower bound of sigma that the pairs give."""
+    """The sign of (2^alpha - 1) minus the lower bound of sigma that the pairs give on [0, 1/Delta_max]."""
+    a, b, n = pairs_line(graph, pairs)
+    return compare(lambda bits: first_threshold(alpha, bits), min(a, a - b / graph.degree_max) / n)
+
+
+def pairs_line(graph: Graph, pairs: Pairs) -> tuple[Fraction, Fraction, Fraction]:
+    """(a, b, n), n > 0, with sigma(mu) >= (a - mu b)/n for every mu; raises `Refused` where the pairs give none."""
     need_that(len(pairs) > 0, "there are pairs of vectors")
     need_that(all(sum(x) == 0 for pair in pairs for x in pair), "every vector of the pairs sums to 0")
     common = common_denominator([entry for pair in pairs for x in pair for entry in x], graph.agents)
@@ -131,8 +137,7 @@ def _pairs_sign(graph: Graph, alpha: Fraction, pairs: Pairs) -> int | None:
         b += sum(map(mul, u, (sum(map(mul, row, v)) for row in graph.laplacian)))
         n += sum(map(mul, u, u)) + sum(map(mul, v, v))
     need_that(n > 0, "not all vectors of the pairs are 0")
-    fall = Fraction(b, graph.denominator) / graph.degree_max
-    return compare(lambda bits: first_threshold(alpha, bits), 2 * min(Fraction(a), a - fall) / n)
+    return Fraction(2 * a), Fraction(2 * b, graph.denominator), Fraction(n)
 
 
 def _require_opening(graph: Graph, name: str, opening: Opening) -> None:

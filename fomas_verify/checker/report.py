@@ -1,6 +1,6 @@
 """The checker's answer to a certificate: an outcome for each value and claim, and an exit status.
 
-Source: docs/certificate-format.md, sections 6, 8 and 10.
+Source: docs/certificate-format.md, sections 6 and 8 to 10.
 """
 
 from collections.abc import Callable, Iterable
@@ -25,25 +25,27 @@ from fomas_verify.checker.switching import (
     require_switched_value,
 )
 from fomas_verify.checker.switching_form import SwitchedClaim, SwitchedCondition, SwitchedDesign
+from fomas_verify.checker.task_form import Limits, Task, TaskClaim
+from fomas_verify.checker.tasks import require_task_claim
 from fomas_verify.checker.value_form import Value
 from fomas_verify.checker.values import require_value
 
 MAX_AGENTS = 2000
 
-Kind = Literal["value", "claim", "condition"]
+Kind = Literal["value", "claim", "condition", "task"]
 Status = Literal["accepted", "refused", "undecided"]
 Stated = Claim | Condition | SwitchedClaim | SwitchedCondition
-Said = TypeVar("Said", Value, Stated)
+Said = TypeVar("Said", Value, Stated, TaskClaim)
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """What the checker says of one value, claim or condition.
+    """What the checker says of one value, claim, condition or claim about a task.
 
     Attributes
     ----------
-    kind : which of the three it is; a condition of a region is no claim about the design, though `gain-bound` is an id
-        of both
+    kind : which of the four it is; a condition of a region is no claim about the design, though `gain-bound` is an id
+        of both, and neither is a claim about the task of a synthesis
     id : the value's key (a margin's keys, with points between) or the id of the claim, or condition
     verdict : the certificate's verdict on a claim or condition, None for a value
     status : `accepted` if it is true and seen to be, `refused` if it is false or not shown by its witness, `undecided`
@@ -75,10 +77,12 @@ class Report:
     ----------
     design : the design that the certificate is about, in exact rationals and sorted edges
     outcomes : one for each value and each claim, in the file's order
+    limits : those of a synthesis, None of another certificate
     """
 
     design: Design | UncertainDesign | SwitchedDesign
     outcomes: tuple[Outcome, ...]
+    limits: Limits | None = None
 
     @property
     def exit_status(self) -> int:
@@ -135,7 +139,8 @@ def check(document_bytes: bytes) -> Report:
         If the bytes are not a certificate of this format.
     """
     document = read_document(document_bytes)
-    return Report(document.design, tuple(_outcomes(document)))
+    limits = None if document.task is None else document.task.limits
+    return Report(document.design, tuple(_outcomes(document)), limits)
 
 
 def _outcomes(document: Document) -> Iterable[Outcome]:
@@ -148,6 +153,20 @@ def _outcomes(document: Document) -> Iterable[Outcome]:
         status, reason = _ruled(design.agents, claim_test, claim)
         kind: Kind = "condition" if isinstance(claim, Condition | SwitchedCondition) else "claim"
         yield Outcome(kind, claim.id, claim.verdict, status, reason)
+    if document.task is not None:
+        yield from _task_outcomes(cast(Design, design), document.task)
+
+
+def _task_outcomes(design: Design, task: Task) -> Iterable[Outcome]:
+    """The condition's, and those of the task's claims, which rest on it."""
+    facts, condition = Facts(design, Graph(design)), task.condition
+    met, why = _ruled(design.agents, partial(require_condition, facts), condition)
+    yield Outcome("condition", condition.id, condition.verdict, met, why)
+    for claim in task.claims:
+        status, reason = met, f"the condition {condition.id}, on which it rests, is {met}"
+        if met == "accepted":
+            status, reason = _ruled(design.agents, partial(require_task_claim, facts, task), claim)
+        yield Outcome("task", claim.id, claim.verdict, status, reason)
 
 
 def _tests(

@@ -41,8 +41,8 @@ def require_size(facts: Facts, value: Value) -> str:
         need_that(bounds.lower <= mean, "lower <= limit")
         need_that(mean <= bounds.upper, "limit <= upper")
     else:
-        need(_reach_below(facts, bounds.lower), (-1, 0), "lower <= actuator_reach")
-        need(_reach_below(facts, bounds.upper), (0, 1), "actuator_reach <= upper")
+        need(reach_below(facts, bounds.lower), (-1, 0), "lower <= actuator_reach")
+        need(reach_below(facts, bounds.upper), (0, 1), "actuator_reach <= upper")
     return f"lower <= {name} <= upper"
 
 
@@ -74,7 +74,7 @@ def _sample_below(facts: Facts, k: int, x: Fraction) -> int | None:
     return settle(test)
 
 
-def _reach_below(facts: Facts, x: Fraction) -> int | None:
+def reach_below(facts: Facts, x: Fraction) -> int | None:
     """The sign of x - peak gamma norm(L x_0)."""
     design = facts.design
     columns, q = error_columns(facts.graph, cast(State, design.x0))

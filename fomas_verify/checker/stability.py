@@ -12,6 +12,7 @@ from operator import mul
 from fomas_verify.checker.definite import least_sign
 from fomas_verify.checker.facts import settle
 from fomas_verify.checker.graph import Graph, Rows, common_denominator, limit_size
+from fomas_verify.checker.packed import combinations
 from fomas_verify.checker.ruling import Undecided, need, need_that
 from fomas_verify.checker.witness import Triangle
 
@@ -28,6 +29,14 @@ def differences_step(graph: Graph, t: Fraction) -> tuple[Rows, int]:
     for i, row in enumerate(rows):
         row[i] += f
     return rows, f
+
+
+def _step(graph: Graph, t: Fraction) -> Rows:
+    """f (I - t L), with the f of `differences_step`."""
+    rows = [[-t.numerator * entry for entry in row] for row in graph.laplacian]
+    for i, row in enumerate(rows):
+        row[i] += graph.denominator * t.denominator
+    return rows
 
 
 @lru_cache(maxsize=4)
@@ -74,16 +83,20 @@ def _bits(rows: Rows) -> int:
 @lru_cache(maxsize=4)
 def trace_beyond(graph: Graph, t: Fraction, n: int) -> int | None:
     """1 if abs trace(Pc(t)^n) > N - 1, -1 if not, None if not decided."""
-    return power_trace_beyond(*differences_step(graph, t), n)
+    _, f = differences_step(graph, t)
+    return power_trace_beyond(_step(graph, t), f, n, 1)
 
 
-def power_trace_beyond(rows: Rows, f: int, n: int) -> int | None:
-    """1 if abs trace((F / f)^n) is more than the number of rows of F, -1 if not, None if not decided."""
+def power_trace_beyond(rows: Rows, f: int, n: int, ones: int = 0) -> int | None:
+    """1 if abs(trace((F / f)^n) - ones) > size - ones for F with `size` rows, -1 if not, None if not decided.
+
+    `ones` of the eigenvalues are known to be 1: the others are as many as the right side says.
+    """
     size = len(rows)
     bits = max(_bits(rows), f.bit_length()) + size.bit_length()
     if bits * n <= MAX_EXACT_POWER_BITS:
         trace = sum(row[i] for i, row in enumerate(_exact_power(rows, n)))
-        return 1 if abs(trace) > size * f**n else -1
+        return 1 if abs(trace - ones * f**n) > (size - ones) * f**n else -1
 
     def test(width: int) -> int | None:
         if size**3 * n.bit_length() * width > MAX_POWER_WORK:
@@ -94,10 +107,11 @@ def power_trace_beyond(rows: Rows, f: int, n: int) -> int | None:
         result = _power(base, n, width)
         if result is None:
             return None
-        slack = size * result.error
-        if _exceeds(abs(result.trace) - slack, result.exponent, size):
+        slack, exponent, low = size * result.error, result.exponent, size - 2 * ones
+        if _exceeds(result.trace - slack, exponent, size) or _exceeds(-result.trace - slack, exponent, low):
             return 1
-        return None if _exceeds(abs(result.trace) + slack, result.exponent, size) else -1
+        below = _exceeds(result.trace + slack, exponent, size) or _exceeds(slack - result.trace, exponent, low)
+        return None if below else -1
 
     return settle(test)
 
@@ -149,12 +163,11 @@ def _product(a: Scaled, b: Scaled, width: int) -> Scaled:
 
 
 def _times(a: Rows, b: Rows) -> Rows:
-    columns = list(zip(*b, strict=True))
-    return [[sum(map(mul, row, column)) for column in columns] for row in a]
+    return combinations(b, a)
 
 
 def _exceeds(x: int, exponent: int, bound: int) -> bool:
-    """Whether x 2^exponent > bound >= 1; the exponent can be far too large to shift by."""
+    """Whether x 2^exponent > bound >= 0; the exponent can be far too large to shift by."""
     if exponent >= 0:
         return x << min(exponent, bound.bit_length()) > bound
     return x > bound << min(-exponent, max(x.bit_length(), 1))

@@ -1,6 +1,6 @@
 """The claims a certificate can make, and what each says, to the letter.
 
-Source: docs/certificate-format.md, sections 4, 8 and 10.
+Source: docs/certificate-format.md, sections 4 and 8 to 10.
 """
 
 STATEMENTS: dict[str, str] = {
@@ -73,3 +73,10 @@ SWITCHED_CONDITIONS: dict[str, str] = {
 }
 
 MARGINS = ("gain-bound", "memory-inequality", "perron-eigenvalues", "repaired-condition", "control-norm-bound")
+
+OBJECTIVES = ("fastest", "gentlest", "slowest-sampling", "most-robust")
+TASK_CLAIMS: dict[str, str] = {
+    "feasible": "some gamma > 0 and h > 0 satisfy the condition and the limits",
+    "best": "no gamma > 0 and h > 0 that satisfy the condition and the limits are as good as the bound",
+}
+"""What the certificate of a synthesis can say beside the claims about the design that was found."""

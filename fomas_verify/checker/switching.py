@@ -1,6 +1,6 @@
 """Graphs to switch among: one quadratic form for all of them, or the proof that there is none.
 
-Source: docs/certificate-format.md, section 10; docs/theory.md, section 10.
+Source: docs/certificate-format.md, section 10; docs/theory.md, section 11.
 """
 
 from collections.abc import Callable, Sequence

@@ -15,6 +15,7 @@ COMMANDS = {
     "check": "check a certificate with the independent checker",
     "kernel": "f(j), c_n, partial sums and resolvent, every printed digit right",
     "region": "the certified feasible region of (gamma, h)",
+    "synthesize": "the best (gamma, h) in that region under the design's limits",
     "simulate": "the closed loop under the paper's controller and others: table, figures",
     "report": "LaTeX report of a design, and its PDF where a LaTeX is at hand",
     "gate": "many designs, one exit status: the gate of a CI job",

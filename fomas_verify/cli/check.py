@@ -84,6 +84,12 @@ def differences(report: Report, meant: Design | UncertainDesign | SwitchedDesign
         "x0": (named.x0, design.x0),
         "require": (set(named.require), set(design.require)),
     }
+    if report.limits is not None:
+        given, limits = report.limits, design.limits
+        theirs = (given.h, given.gamma, given.u_max, given.within)
+        pairs["limits"] = (theirs, (limits.h, limits.gamma, limits.u_max, limits.settle_within))
+        if given.settle_to is not None and design.settle_to is not None:
+            pairs["settle_to"] = (given.settle_to, design.settle_to)
     return [key for key, (theirs, ours) in pairs.items() if theirs != ours]
 
 

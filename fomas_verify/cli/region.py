@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from fomas_verify.cli.options import design_argument, json_option
-from fomas_verify.design import DesignError, SwitchedDesign, UncertainDesign, read_named
+from fomas_verify.design import DesignError, Limits, SwitchedDesign, UncertainDesign, read_named
 from fomas_verify.region import Region, certificate, find_region, record, region_text
 from fomas_verify.report.files import write_whole
+
+if TYPE_CHECKING:
+    from fomas_verify.region.polygon import Room
 
 FORMATS = ("pdf", "png", "svg")
 
@@ -30,7 +34,8 @@ FORMATS = ("pdf", "png", "svg")
 def command(design: Path, output: Path | None, plot: Path | None, solver: str, *, as_json: bool) -> int:
     """Print on which mu, and so on which (gamma, h), each condition holds, every end of it certified.
 
-    DESIGN needs no gamma and no h. With h the table shows the gamma that go with it, with gamma alone the h.
+    DESIGN needs no gamma and no h. With h the table shows the gamma that go with it, with gamma alone the h; with a
+    table [limits] what they leave of each condition, or what clashes.
 
     \b
     Example:  verify-design region examples/paper.toml -o region.json
@@ -53,13 +58,14 @@ def command(design: Path, output: Path | None, plot: Path | None, solver: str, *
     found = find_region(named)
     if solver == "lmi":
         _hold_against_lmi(found)
+    left = _left(found)
     if plot is not None and file_format is not None:
         from fomas_verify.region.drawing import draw
 
         write_whole(plot, draw(found, file_format))
     if output is not None:
         write_whole(output, certificate(found).encode())
-    click.echo(json.dumps(record(found), indent=2) if as_json else region_text(found))
+    click.echo(json.dumps(record(found, left), indent=2) if as_json else region_text(found, left))
     return 0
 
 
@@ -83,6 +89,15 @@ def _hold_against_lmi(found: Region) -> None:
         click.echo(f"the LMI agrees: {', '.join(told.agreed)}", err=True)
     for reason in told.failed:
         click.echo(f"no answer from the LMI, the direct search stands: {reason}", err=True)
+
+
+def _left(found: Region) -> tuple[Room, ...]:
+    """What the limits leave, where the design gives limits."""
+    if found.loop.design.limits == Limits():
+        return ()
+    from fomas_verify.region.polygon import rooms
+
+    return rooms(found)
 
 
 def _format(plot: Path) -> str:

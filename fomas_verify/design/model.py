@@ -6,6 +6,7 @@ from fractions import Fraction
 from typing import TypeAlias
 
 from fomas_verify.design.errors import DesignError
+from fomas_verify.design.limits import NO_LIMITS, Limits
 from fomas_verify.enclosure.interval import Interval
 from fomas_verify.network import Digraph
 
@@ -40,6 +41,8 @@ class Design:
         The file it was read from, for messages.
     notes : tuple of str
         What the user must know about the reading of the numbers.
+    limits : Limits
+        What gamma and h have to keep to, for `region` and `synthesize`; no verdict depends on it.
     """
 
     name: str
@@ -54,6 +57,7 @@ class Design:
     require: tuple[str, ...]
     source: str
     notes: tuple[str, ...] = ()
+    limits: Limits = NO_LIMITS
 
     @property
     def components(self) -> State | None:

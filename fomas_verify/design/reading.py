@@ -14,6 +14,7 @@ from fomas_verify.design.document import Format, format_of, parse_document, read
 from fomas_verify.design.errors import DesignError
 from fomas_verify.design.fields import Place, choice, count, number, positive, sequence, shown, table
 from fomas_verify.design.graph_table import read_graph
+from fomas_verify.design.limits import NO_LIMITS, read_limits
 from fomas_verify.design.model import Design, State, SwitchedDesign, UncertainDesign
 from fomas_verify.enclosure.interval import Interval
 from fomas_verify.network import Digraph
@@ -23,8 +24,21 @@ MAX_HORIZON: Final = 10**9
 MAX_NAME: Final = 200
 MAX_GRAPHS: Final = 64
 
-_KEYS = ("name", "alpha", "gamma", "mu", "h", "x0", "horizon", "settle_to", "graph", "gate", "format", "graphs")
-_UNSUPPORTED = ("limits",)
+_KEYS = (
+    "name",
+    "alpha",
+    "gamma",
+    "mu",
+    "h",
+    "x0",
+    "horizon",
+    "settle_to",
+    "graph",
+    "gate",
+    "limits",
+    "format",
+    "graphs",
+)
 _NOT_SWITCHED = ("x0", "horizon", "settle_to", "limits")
 _ALPHA_LIMIT = 2**64
 
@@ -118,10 +132,7 @@ def named_from_mapping(
 ) -> Design | UncertainDesign | SwitchedDesign:
     """Read a design that may have graphs in place of graph; otherwise as `any_from_mapping`."""
     place = Place(source)
-    top = table(mapping, place, (*_KEYS, *_UNSUPPORTED))
-    for key in _UNSUPPORTED:
-        if key in top:
-            raise place.key(key).unsupported("this key is")
+    top = table(mapping, place, _KEYS)
     if "format" in top:
         choice(top["format"], place.key("format"), "the format of a design", (FORMAT,))
     if "gamma" in top and "mu" in top:
@@ -147,6 +158,7 @@ def named_from_mapping(
         horizon=count(top["horizon"], place.key("horizon"), 0, MAX_HORIZON) if "horizon" in top else None,
         settle_to=_settle_to(top["settle_to"], place.key("settle_to")) if "settle_to" in top else None,
         require=_require(top, place),
+        limits=read_limits(top["limits"], place.key("limits")) if "limits" in top else NO_LIMITS,
         source=source,
         notes=_notes(top),
     )

@@ -2,7 +2,7 @@
 
 Notation: in the differences from the last agent, as `spectrum.stability`; ``W = N I - 1 1^T`` is N times the norm. The
 candidates in turn: W itself, which serves wherever (15) holds for every digraph; the sum of the digraphs' own Lyapunov
-forms; what a semidefinite program proposes. Source: theory, section 10.
+forms; what a semidefinite program proposes. Source: theory, section 11.
 """
 
 from __future__ import annotations

@@ -3,7 +3,7 @@
 Notation: U an orthonormal basis of 1perp, ``M_i = U^T L_i U / D``, ``s = t D``. A form S > 0 decreases under every
 digraph at t iff ``S M_i + M_i^T S - s M_i^T S M_i > 0``. The program maximises the margin eps of these over S >= 0 of
 trace n; a negative margin comes with Z_i >= 0 in its dual, which show that there is no form. Source: theory, section
-10.
+11.
 """
 
 from __future__ import annotations

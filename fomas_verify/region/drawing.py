@@ -1,4 +1,6 @@
-"""The strips in (h, gamma) on logarithmic axes, where each lies between two parallel lines, and the design's point."""
+"""The strips in (h, gamma) on logarithmic axes, where each lies between two parallel lines, the limits, the design's
+point.
+"""
 
 from __future__ import annotations
 
@@ -7,9 +9,11 @@ import math
 from fractions import Fraction
 from typing import Any, Final
 
+from fomas_verify.design import Limits
 from fomas_verify.exact.errors import FomasError
 from fomas_verify.kernel.memory import one_step_weight
 from fomas_verify.region.model import Condition, Region, Strip
+from fomas_verify.region.task import Objective, Task, require_complete
 from fomas_verify.spectrum.margins import BITS
 
 COLORS: Final = {  # widest first
@@ -64,7 +68,8 @@ def _draw(axes: Any, region: Region) -> None:
     design = region.loop.design
     weight = float(one_step_weight(design.alpha, Fraction(1), BITS).mid)
     middle = 1.0 if design.h is None else float(design.h)
-    ends = [middle * 10**-DECADES, middle * 10**DECADES]
+    own = [float(h) for h in design.limits.h or () if h]
+    ends = [min([middle, *own]) * 10**-DECADES, max([middle, *own]) * 10**DECADES]
 
     def line(mu: Fraction) -> list[float]:
         """The gamma that make this mu at both ends: ``mu Gamma(alpha + 1) / h^alpha``."""
@@ -78,10 +83,26 @@ def _draw(axes: Any, region: Region) -> None:
         axes.fill_between(ends, low, line(mu.upper.mid), label=condition.value, color=COLORS[condition], linewidth=0)
     if design.gamma is not None and design.h is not None:
         axes.plot([float(design.h)], [float(design.gamma)], "k.", label="the design")
+    _draw_limits(axes, region)
     axes.set(xscale="log", yscale="log", xlabel="h in seconds", ylabel="gamma", xlim=ends)
     axes.set_ylim(bottom=floor)
     axes.set_title(f"{design.name}: alpha = {float(design.alpha):.6g}{_empty(region.strips)}")
     axes.legend(fontsize=6.5)
+
+
+def _draw_limits(axes: Any, region: Region) -> None:
+    """The limits of h, of gamma, and of gamma by u_max where the peak is 1, as lines."""
+    design = region.loop.design
+    if design.limits == Limits():
+        return
+    require_complete(design)
+    box = Task(region, Condition.REPAIRED, Objective.ROBUST, design.limits).box
+    style = {"color": "black", "linewidth": 0.8, "linestyle": "--"}
+    lines = [(axes.axvline, x) for x in box.h if x] + [
+        (axes.axhline, x) for x in (box.gamma_least, box.gamma_most) if x
+    ]
+    for i, (line, x) in enumerate(lines):
+        line(float(x), label=None if i else "the limits", **style)
 
 
 def _empty(strips: tuple[Strip, ...]) -> str:

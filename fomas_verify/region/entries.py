@@ -4,13 +4,20 @@ section 8.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
 from fomas_verify.certificate.document import plain
 from fomas_verify.certificate.region_document import region_certificate_text
 from fomas_verify.claims.verdict import Verdict
+from fomas_verify.enclosure.interval import Interval
 from fomas_verify.region.model import Condition, Region, Strip
+
+if TYPE_CHECKING:
+    from fomas_verify.region.polygon import Room
+
+KEPT_BITS = 96
+"""The bits of a vertex."""
 
 STATEMENTS: Mapping[Condition, str] = {
     Condition.AS_STATED: (
@@ -27,16 +34,39 @@ STATEMENTS: Mapping[Condition, str] = {
 }
 
 
-def record(region: Region) -> dict[str, Any]:
-    """What ``region --json`` prints."""
-    return {"conditions": [_condition(strip) for strip in region.strips]}
+def record(region: Region, left: Sequence[Room] = ()) -> dict[str, Any]:
+    """What ``region --json`` prints; with what the limits leave of each condition, where there are limits."""
+    entries = [_condition(strip) for strip in region.strips]
+    for entry, room in zip(entries, left, strict=False):
+        entry["limits"] = _room(room)
+    return {"conditions": entries}
+
+
+def _room(room: Room) -> dict[str, Any]:
+    pieces = [
+        {
+            "samples": piece.samples,
+            "unbounded": piece.unbounded,
+            "vertices": [{"gamma": _ends(v.gamma), "h": _ends(v.h)} for v in piece.vertices],
+        }
+        for piece in room.pieces
+    ]
+    empty = None if not pieces and room.clash is None else not pieces
+    found = {"empty": empty, "clash": room.clash, "polyhedra": pieces, "more": room.more, "peak_bound": room.peak_bound}
+    plain_found: dict[str, Any] = plain(found)
+    return plain_found
+
+
+def _ends(x: Interval) -> dict[str, Any]:
+    outer = x.rounded(KEPT_BITS)
+    return {"lower": outer.lower, "upper": outer.upper}
 
 
 def certificate(region: Region) -> str:
     """The certificate's canonical text."""
     from importlib.metadata import version
 
-    return region_certificate_text(region.loop.design, map(_claim, region.strips), version("fomas_verify"))
+    return region_certificate_text(region.loop.design, map(condition_claim, region.strips), version("fomas_verify"))
 
 
 def _condition(strip: Strip) -> dict[str, Any]:
@@ -48,7 +78,8 @@ def _condition(strip: Strip) -> dict[str, Any]:
     return found | {"alpha_opens": alpha}
 
 
-def _claim(strip: Strip) -> dict[str, Any]:
+def condition_claim(strip: Strip) -> dict[str, Any]:
+    """A condition as a certificate claims it."""
     mu, opening = strip.mu, strip.opening
     witness: dict[str, Any] = dict(strip.empty)
     if mu is not None:

@@ -12,7 +12,7 @@ from fractions import Fraction
 from functools import cache
 from math import isqrt
 
-from fomas_verify.enclosure.interval import short_dyadic
+from fomas_verify.enclosure.interval import Interval, short_dyadic
 from fomas_verify.exact import matrix as exact
 from fomas_verify.spectrum.contraction import directions, last
 from fomas_verify.spectrum.loop import Loop, sigma_at
@@ -67,12 +67,12 @@ def least_factor(loop: Loop) -> LeastFactor | None:
     if _is_complete(loop):
         return None
     end = 1 / loop.degree_max
-    left, right = _line(loop, Fraction(0)), _line(loop, end)
+    left, right = line_at(loop, Fraction(0)), line_at(loop, end)
     best = right
     for step in range(MOST_STEPS):
         if right.fall >= 0 or best.at(best.mu) - _crossing_value(left, right) < CLOSE:
             break
-        here = _line(loop, _next(left, right, step))
+        here = line_at(loop, _next(left, right, step))
         best = min(best, here, key=lambda line: line.at(line.mu))
         left, right = (here, right) if here.fall >= 0 else (left, here)
     lines = (right,) if right.fall >= 0 else (left, right)
@@ -80,12 +80,13 @@ def least_factor(loop: Loop) -> LeastFactor | None:
     return LeastFactor(lower, sigma_at(loop.laplacian, best.mu, 2 * BITS).upper, best.mu, lines)
 
 
-def lower_bound(loop: Loop, pairs: list[Pair]) -> Fraction:
-    """A number that sigma(mu) is not below for any mu of ``[0, 1/D]``; exact."""
+def lower_bound(loop: Loop, pairs: list[Pair], on: Interval | None = None) -> Fraction:
+    """A number that sigma(mu) is not below for any mu of an interval, ``[0, 1/D]`` where none is given; exact."""
     a = sum((_dot(u, v) for u, v in pairs), Fraction(0))
     b = sum((_dot(u, exact.apply(loop.laplacian, v)) for u, v in pairs), Fraction(0))
     n = sum((exact.norm_squared(u) + exact.norm_squared(v) for u, v in pairs), Fraction(0)) / 2
-    return min(a, a - b / loop.degree_max) / n
+    ends = (Fraction(0), 1 / loop.degree_max) if on is None else on.ends
+    return min(a - mu * b for mu in ends) / n
 
 
 def _is_complete(loop: Loop) -> bool:
@@ -94,7 +95,7 @@ def _is_complete(loop: Loop) -> bool:
     return len({x for i, row in enumerate(rows) for j, x in enumerate(row) if i != j}) == 1
 
 
-def _line(loop: Loop, mu: Fraction) -> Line:
+def line_at(loop: Loop, mu: Fraction) -> Line:
     """The line through (nearly) sigma(mu) that the direction shrunk least there, and its image, give."""
     e = last(directions(loop, mu, BITS))
     le = exact.apply(loop.laplacian, e)
@@ -126,11 +127,11 @@ def _weighted(lines: tuple[Line, ...], bits: int) -> list[Pair]:
     """The pairs with integer entries, of such lengths that the slopes of their lines cancel in the sum."""
     steepest = max(abs(line.fall) for line in lines)
     weights = [Fraction(1)] if len(lines) == 1 else [abs(line.fall) / steepest for line in reversed(lines)]
-    pairs = [_scaled(line.pair, weight, bits) for line, weight in zip(lines, weights, strict=True)]
+    pairs = [scaled_pair(line.pair, weight, bits) for line, weight in zip(lines, weights, strict=True)]
     return [(u, v) for u, v in pairs if any(u) and any(v)]
 
 
-def _scaled(pair: Pair, weight: Fraction, bits: int) -> Pair:
+def scaled_pair(pair: Pair, weight: Fraction, bits: int) -> Pair:
     """The pair with norms near ``sqrt(weight) 2^bits``, rounded to integers that sum to 0."""
     square = weight * (1 << 4 * bits + 2 * BITS) / exact.norm_squared(pair[1])
     factor = Fraction(isqrt(int(square)), 1 << bits + BITS)

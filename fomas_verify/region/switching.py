@@ -1,5 +1,5 @@
 """The claims about a design whose digraph is switched, decided. Source: docs/certificate-format.md, section 10; theory,
-section 10.
+section 11.
 """
 
 from __future__ import annotations

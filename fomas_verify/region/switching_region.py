@@ -1,6 +1,6 @@
 """For which mu a set of digraphs can be switched among, as far as one quadratic form shows it: an interval (0, t*).
 
-Source: docs/certificate-format.md, section 10; theory, section 10.
+Source: docs/certificate-format.md, section 10; theory, section 11.
 """
 
 from __future__ import annotations

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
+from typing import TYPE_CHECKING
 
 from fomas_verify.enclosure.digits import decimal
 from fomas_verify.enclosure.interval import Interval
@@ -11,12 +12,17 @@ from fomas_verify.region.gains import Span, section, span_of
 from fomas_verify.region.model import Region, Strip
 from fomas_verify.spectrum.margins import BITS
 
-DIGITS = 18
+if TYPE_CHECKING:
+    from fomas_verify.region.polygon import Room
+
+DIGITS, CORNER = 18, 12
+SHOWN = 3
+"""Polyhedra of one condition that are shown, one for each number of samples."""
 
 
-def region_text(region: Region) -> str:
-    """All that was found, for a reader."""
-    parts = [_heading(region), _table(region), _cut(region), _best(region), _own(region)]
+def region_text(region: Region, left: Sequence[Room] = ()) -> str:
+    """All that was found, for a reader; with what the limits leave of each condition, where there are limits."""
+    parts = [_heading(region), _table(region), _cut(region), _left(region, left), _best(region), _own(region)]
     return "\n\n".join("\n".join(part) for part in map(list, parts) if part)
 
 
@@ -37,6 +43,36 @@ def _cut(region: Region) -> Iterator[str]:
     cut = section(region)
     if cut is not None:
         yield from _aligned([("condition", f"{cut.free} at {cut.at}"), *((x.value, _span(s)) for x, s in cut.spans)])
+
+
+def _left(region: Region, left: Sequence[Room]) -> Iterator[str]:
+    """The corners of what the limits leave, or what clashes."""
+    if not left:
+        return
+    yield f"What the limits leave ({', '.join(_limits(region))}), by its corners (gamma, h):"
+    for room in left:
+        if not room.pieces:
+            yield f"  {room.condition}: {'not decided' if room.clash is None else f'nothing: {room.clash}'}"
+        for piece in room.pieces[:SHOWN]:
+            samples = "" if piece.samples is None else f", {piece.samples} samples"
+            corners = " ".join(f"({decimal(v.gamma, CORNER)}, {decimal(v.h, CORNER)})" for v in piece.vertices)
+            yield f"  {room.condition}{samples}: {corners}{' unbounded' if piece.unbounded else ''}"
+        if room.more or len(room.pieces) > SHOWN:
+            last = "more" if room.more else f"up to {room.pieces[-1].samples} samples"
+            yield f"  {room.condition}, {last}: in --json"
+    if region.loop.design.limits.u_max is not None and any(room.pieces and room.peak_bound is None for room in left):
+        names = ", ".join(room.condition for room in left if room.pieces and room.peak_bound is None)
+        yield f"  (in {names} the peak has no bound on the strip: there u_max limits the first control only)"
+
+
+def _limits(region: Region) -> Iterator[str]:
+    limits = region.loop.design.limits
+    for name, ends in (("h", limits.h), ("gamma", limits.gamma)):
+        if ends is not None:
+            yield f"{name} in [{format_rational(ends[0])}, {format_rational(ends[1])}]"
+    for name, x in (("u_max", limits.u_max), ("settle_within", limits.settle_within)):
+        if x is not None:
+            yield f"{name} = {format_rational(x)}"
 
 
 def _best(region: Region) -> Iterator[str]:

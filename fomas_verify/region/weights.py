@@ -2,7 +2,7 @@
 
 Notation: ``W = I - mu L``, w_ij = mu a_ij >= 0 on the edges, ``W 1 = 1``, ``1^T W = 1^T``, W_ii > 0; the weights stand
 for mu = 1. A solver proposes; the weights are rounded to decimals with row and column sums exactly right, and what is
-said of them is decided exactly. Source: theory, section 11.
+said of them is decided exactly. Source: theory, section 12.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Orders of the digraphs, taken over and over, along which the disagreement grows: found in floats, shown exactly.
 
-Source: theory, section 10, "Refuting the claim".
+Source: theory, section 11, "Refuting the claim".
 """
 
 from __future__ import annotations

@@ -7,10 +7,10 @@ from pathlib import Path
 
 from fomas_verify.simulate.errors import SimulationError
 
-NUMBER, CELL = 8, 100
+NUMBER, CELL = 8, 130
 """Bytes of a float, and of a cell of the table while it is written."""
 
-ARRAYS, COPIES = 14, 3
+ARRAYS, COPIES = 5, 5
 """Arrays of the size of the states that are held at once, transforms of padded length among them; and the copies of one
 controller's states between the samples while they are put in order.
 """

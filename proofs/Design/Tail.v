@@ -80,6 +80,26 @@ Proof.
   replace (IZR scale * (IZR t / IZR scale * norm N e)) with (IZR t * norm N e) by (field; lra). exact R.
 Qed.
 
+(** last / scale <= c_b / c_a. *)
+Lemma ratio_sound scale alpha l a b last N T : (0 < scale)%Z -> 0 < alpha < 1 ->
+  powers_within scale alpha 1 l -> (a < length l)%nat -> (b < length l)%nat -> (0 <= last)%Z ->
+  (last * c_high scale l a <= scale * c_low scale l b)%Z ->
+  bounded_on_1perp N T (IZR last / IZR scale) -> bounded_on_1perp N T (ck alpha b / ck alpha a).
+Proof.
+  intros Hs Ha Hl La Lb C0 C. apply bounded_weaken. assert (S0 := IZR_lt _ _ Hs).
+  apply IZR_le in C, C0. rewrite !mult_IZR in C.
+  assert (X := c_within scale alpha Hs l a Hl La). assert (Y := c_within scale alpha Hs l b Hl Lb).
+  assert (Q : 0 < ck alpha a) by (apply ck_pos, Ha).
+  apply Rmult_le_reg_l with (IZR scale * (IZR scale * ck alpha a)); [repeat apply Rmult_lt_0_compat; assumption|].
+  replace (IZR scale * (IZR scale * ck alpha a) * (IZR last / IZR scale))
+    with (IZR last * (IZR scale * ck alpha a)) by (field; lra).
+  replace (IZR scale * (IZR scale * ck alpha a) * (ck alpha b / ck alpha a))
+    with (IZR scale * (IZR scale * ck alpha b)) by (field; lra).
+  apply Rle_trans with (IZR last * IZR (c_high scale l a)).
+  - apply Rmult_le_compat_l; lra.
+  - eapply Rle_trans; [exact C|]. apply Rmult_le_compat_l; lra.
+Qed.
+
 Section Tail.
 Variables (N : nat) (W : zmat) (d lo hi m scale : Z) (l r : list (Z * Z)) (phis powers : list (list cell)).
 Variables (K p : nat) (phi_bounds power_bounds : list bound) (last_bound : bound) (last : Z).
@@ -125,19 +145,8 @@ Proof.
           with (IZR (c_low scale l (K + 1 + i))) by (field; lra).
         assert (X := c_within scale alpha C10 l (K + 1 + i) Hl ltac:(lia)). lra.
       * apply (HP _ (nth i power_bounds no_bound)); [lia|]. apply (below_true p _ C2 i I).
-    + apply bounded_weaken with (IZR last / IZR scale); [|apply (HP p last_bound last ltac:(lia) C1)].
-      apply IZR_le in C, C0. rewrite !mult_IZR in C.
-      assert (X := c_within scale alpha C10 l (K + 1) Hl ltac:(lia)).
-      assert (Y := c_within scale alpha C10 l (K + 1 + p) Hl ltac:(lia)).
-      assert (Q := c_pos (K + 1)%nat).
-      apply Rmult_le_reg_l with (IZR scale * (IZR scale * ck alpha (K + 1))); [repeat apply Rmult_lt_0_compat; assumption|].
-      replace (IZR scale * (IZR scale * ck alpha (K + 1)) * (IZR last / IZR scale))
-        with (IZR last * (IZR scale * ck alpha (K + 1))) by (field; lra).
-      replace (IZR scale * (IZR scale * ck alpha (K + 1)) * (ck alpha (K + 1 + p) / ck alpha (K + 1)))
-        with (IZR scale * (IZR scale * ck alpha (K + 1 + p))) by (field; lra).
-      apply Rle_trans with (IZR last * IZR (c_high scale l (K + 1))).
-      * apply Rmult_le_compat_l; lra.
-      * eapply Rle_trans; [exact C|]. apply Rmult_le_compat_l; lra.
+    + apply (ratio_sound scale alpha l (K + 1) (K + 1 + p) last N _ C10 Ha Hl ltac:(lia) ltac:(lia) C0 C).
+      apply (HP p last_bound last ltac:(lia) C1).
 Qed.
 End Tail.
 

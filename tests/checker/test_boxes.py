@@ -15,6 +15,7 @@ from fomas_verify.checker.gain import Gain
 from fomas_verify.checker.graph import Graph
 from fomas_verify.checker.operators import operators
 from fomas_verify.checker.parts import throughout
+from fomas_verify.checker.powers import point
 from fomas_verify.checker.resolvent import KernelBetween, kernel
 from fomas_verify.checker.ruling import Refused, Undecided
 from fomas_verify.checker.witness import Lemma
@@ -134,6 +135,12 @@ def test_lambda2_where_it_is_irrational_or_beyond_the_work_allowed(monkeypatch: 
     found = lambda2(about)
     assert 0 < 2 - found.upper < 2 - found.lower
     assert (2 - found.upper) ** 2 < 2 < (2 - found.lower) ** 2
+    with monkeypatch.context() as poor:
+        poor.setattr(corners, "_lambda2_above", lambda graph: 2 * graph.degree_max)
+        halved = lambda2.__wrapped__(about)
+        assert halved.lower <= found.upper
+        assert found.lower <= halved.upper <= halved.lower + halved.lower / 2**60
+        assert lambda2.__wrapped__(graph(PAPER)) == point(Fraction(1))
     monkeypatch.setattr(corners, "MAX_SIGN_WORK", 64 * 3)
     coarse = lambda2.__wrapped__(about)
     assert (coarse.lower, coarse.upper) == (Fraction(1, 2), 1)

@@ -103,7 +103,8 @@ INTEGER = "expected an integer "
 CHANGES: list[tuple[str, object, str, str]] = [
     ("format", "fomas-certificate/2", "$.format", "expected \"fomas-certificate/1\", got 'fomas-certificate/2'"),
     ("format", None, "$.format", 'expected "fomas-certificate/1", got null'),
-    ("kind", "synthesis", "$.kind", 'expected "design" or "region", got \'synthesis\''),
+    ("kind", "synthesis", "$", 'expected a key "task" in a synthesis, and only there'),
+    ("kind", "syntheses", "$.kind", 'expected "design", "region" or "synthesis", got \'syntheses\''),
     ("tool.name", "other", "$.tool.name", "expected \"fomas_verify\", got 'other'"),
     ("tool.version", "1" * 65, "$.tool.version", f"expected at most 64 characters, got '{'1' * 40}...'"),
     ("tool.version", 1, "$.tool.version", "expected a string, got 1"),

@@ -19,6 +19,8 @@ FILES = {
     "false.toml": 'name = "false"\nalpha = 0.9\nmu = 1\n[graph]\nfamily = "directed-cycle"\nagents = 5\n',
     "large.toml": 'name = "large"\nalpha = 0.9\nmu = 0.1\n[graph]\nfamily = "cycle"\nagents = 201\n',
     "start.toml": 'alpha = 0.9\ngamma = 0.2\nh = 0.85\nx0 = [1, 2, 4]\n[graph]\nfamily = "complete"\nagents = 3\n',
+    "shut.toml": 'alpha = 0.5\n[graph]\nfamily = "directed-cycle"\nagents = 5\n',
+    "steps.toml": 'gate.require = ["beta-contraction"]\nalpha = 0.9\ngraph = {family = "directed-cycle", agents = 3}\n',
     "broken.toml": "alpha = 2\n",
     "broken.json": "{",
     "designs/a.design.toml": 'name = "a"\nalpha = 0.9\nmu = 0.2\n[graph]\nfamily = "complete"\nagents = 4\n',
@@ -44,6 +46,10 @@ simulate.certified_of = lambda d: replace(known(d), bounds=replace(known(d).boun
 CRASH = "def crash(*a, **k): raise ZeroDivisionError\n"
 REGION = CRASH + "import_module('fomas_verify.cli.region').find_region = crash"
 CHECK = CRASH + "import_module('fomas_verify.cli.check').check = crash"
+SYNTHESIZE = CRASH + "import_module('fomas_verify.cli.synthesize').synthesize = crash"
+REFUSAL = """tasks = import_module('fomas_verify.checker.tasks')
+def refuse(*a): raise import_module('fomas_verify.checker.ruling').Refused('no')
+import_module('fomas_verify.checker.report').require_task_claim = refuse"""
 INIT = CRASH + "import_module('fomas_verify.cli.init').write_whole = crash"
 SCHEMA = CRASH + "import_module('fomas_verify.cli.schema').files = crash"
 COMPLETION = CRASH + "import_module('fomas_verify.cli.completion').get_completion_class = crash"
@@ -87,6 +93,22 @@ TABLE: dict[str, dict[int, list[tuple[str, str]]]] = {
         3: [("region large.toml", "")],
         4: [("region good.toml", REGION)],
         130: [("region good.toml", INTERRUPT.format("region", "find_region"))],
+    },
+    "synthesize": {
+        0: [("synthesize good.toml --direct", ""), ("synthesize start.toml --direct --json -o found", "")],
+        1: [("synthesize shut.toml", ""), ("synthesize shut.toml --json -o none", "")],
+        2: [
+            ("synthesize broken.toml", ""),
+            ("synthesize", ""),
+            ("synthesize good.toml --objective best", ""),
+            ("synthesize good.toml --condition whole", ""),
+            ("synthesize good.toml --objective fastest", ""),
+            ("synthesize good.toml --direct -o found.txt", ""),
+            ("synthesize good.toml --direct -o no/where.toml", ""),
+        ],
+        3: [("synthesize large.toml", ""), ("synthesize steps.toml --direct", "")],
+        4: [("synthesize good.toml --direct", SYNTHESIZE), ("synthesize good.toml --direct -o bad", REFUSAL)],
+        130: [("synthesize good.toml", INTERRUPT.format("synthesize", "find_region"))],
     },
     "simulate": {
         0: [("simulate start.toml --samples 3", ""), ("simulate start.toml --samples 3 --json", "")],
@@ -209,6 +231,6 @@ def test_the_status(folder: Path, run, command: str, status: int, call: str, cod
 def test_the_table_has_every_command_and_every_status() -> None:
     """0, 2, 4 and an interruption can happen to each; 1 and 3 to those that decide or check designs."""
     assert set(TABLE) == set(COMMANDS)
-    deciding = {"prove": {1, 3}, "check": {1, 3}, "gate": {1, 3}, "report": {3}, "region": {3}}
+    deciding = {"prove": {1, 3}, "check": {1, 3}, "gate": {1, 3}, "report": {3}, "region": {3}, "synthesize": {1, 3}}
     for command, statuses in TABLE.items():
         assert set(statuses) == {0, 2, 4, 130} | deciding.get(command, set())

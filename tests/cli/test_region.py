@@ -127,7 +127,7 @@ def test_the_certificate_is_about_a_graph_and_an_order_and_proves_no_claim(verif
     ("text", "message"),
     [
         ("alpha = [0.8, 0.9]\n" + GRAPH, "alpha: expected a number, got an interval"),
-        ("alpha = 0.9\n[limits]\nh = [1, 2]\n" + GRAPH, "limits: this key is not supported yet"),
+        ("alpha = 0.9\n[limits]\nh = [2, 1]\n" + GRAPH, "limits.h[1]: expected a number at or above 2"),
         ("alpha = 0.9\n[graph]\nagents = 3\nedges = []\n", "graph: region needs at least one edge; got none"),
     ],
 )

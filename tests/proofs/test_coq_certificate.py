@@ -30,6 +30,15 @@ PAIR = 'alpha = "1/2"\nmu = "1/2"\n[graph]\nfamily = "complete"\nagents = 2\n'
 CIRCLE = 'name = "circle"\nalpha = 0.9\nmu = 1\n[graph]\nfamily = "directed-cycle"\nagents = 5\n'
 TIE = 'name = "tie"\nalpha = 0.9\nmu = "1/3"\n[graph]\nfamily = "cycle"\nagents = 4\n'
 SLOW = 'name = "slow"\nalpha = 0.9\ngamma = 0.3\nh = 1\n[graph]\nfamily = "path"\nagents = 5\n'
+# eqL3 proved by samples and a power; refuted first at k = 2; refuted for the x_0 of the design
+SAMPLED = 'name = "sampled"\nalpha = "1/2"\nmu = "3/4"\n[graph]\nfamily = "directed-cycle"\nagents = 3\n'
+LATER = (
+    'name = "later"\nalpha = "13/20"\nmu = "127/200"\n[graph]\nadjacency = [[0,1,1,0],[1,0,0,1],[1,1,0,0],[0,0,1,0]]\n'
+)
+EXCEEDING = (
+    'name = "exceeding"\nalpha = 0.9\ngamma = 0.15\nh = 0.85\nx0 = [0,-1,-1,-1,1]\n[graph]\n'
+    "adjacency = [[0,0,0,1,1], [1,0,1,0,0], [1,1,0,0,0], [0,1,1,0,0], [0,0,0,1,0]]\n"
+)
 # keywords of Coq, names of its libraries and of ours, and names that are none
 ODD_NAMES = ("Theorem", "Prop", "import", "fun", "forall", "Reals", "Statements", "1 a-b", "αβ", "a_" * 80)
 EXAMPLES = ("paper", "repaired", "ring10", "complete8", "path4", "unbalanced")
@@ -41,11 +50,12 @@ TEXTS = {
     "circle": CIRCLE,
     "tie": TIE,
     "slow": SLOW,
+    "sampled": SAMPLED,
+    "later": LATER,
+    "exceeding": EXCEEDING,
 }
 SMALL = {**TEXTS, "pair": PAIR}
 OMITTED = {
-    "paper": ("trajectory-norm-bound (proved)",),
-    "beyond": ("control-norm-bound (proved)",),
     "path4": ("memory-inequality (proved)",),
 }
 TOGETHER = """Require Paper Repaired Tight.
@@ -166,6 +176,14 @@ FALSE = {
     "the state where the control grows": ("paper", r"(growth_sound [^\[]*\[)0; -1; -1; 0; 2", r"\g<1>1; -1; 0; 0; 0"),
     "the unbalanced agent": ("unbalanced", r"positive 0 ltac", "positive 1 ltac"),
     "a set that is heard outside": ("apart", r"\[true; true; false; false\]", "[true; false; false; false]"),
+    "a sample of the control": ("sampled", r"(phi_cells : list \(list cell\) := \[+\(\[[^(]*\(\[)(\d)", r"\g<1>9\2"),
+    "a power of the kernel": ("sampled", r"( power_numbers : [^,]*,[^,]*, )", r"\g<1>-"),
+    "a number of the resolvent": ("sampled", r"(resolvent_numbers : [^,]*,[^;]*;\s*\()(\d)", r"\g<1>9\2"),
+    "the bound of a sample": ("sampled", r"(phi_bounds : [^}]*most := )(\d)", r"\g<1>9\2"),
+    "the last power": ("sampled", r"( last_bound )(\d+ alpha mu)", r"\g<1>9\2"),
+    "a later sample": ("later", r"sample_cells 2 ", "sample_cells 1 "),
+    "the state of a trajectory": ("exceeding", r"(x0_start : list Z := )\[0; -1; -1; 0; 2\]", r"\g<1>[0; -1; 1; 0; 0]"),
+    "the samples of a trajectory": ("paper", r"(x0_phi_cells : [^(]*\(\[[^;]*; )(-?\d)", r"\g<1>9"),
     "the power of P": ("path4", r"(trace_sound 3 weights denominator positive \d+ \d+ )\d+", r"\g<1>1"),
     "the gain of the power": ("path4", r"(trace_sound 3 weights denominator positive )\d+", r"\g<1>2"),
     "the form that does not fall": ("circle", r"(persistence_sound [^\[]*\[\[)(-?\d+)", r"\g<1>9\2"),

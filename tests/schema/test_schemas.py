@@ -24,6 +24,7 @@ from fomas_verify.design import DesignError
 from fomas_verify.design.document import Number, format_of, parse_document, read_text
 from fomas_verify.design.reading import named_from_mapping
 from tests.checker import switched
+from tests.checker.test_synthesis import AFTER, ALL, END, HASTE, ONE, START, TWO, best, feasible, impossible
 
 ROOT = Path(__file__).resolve().parents[2]
 CORPUS = ROOT / "tests" / "corpus"
@@ -45,7 +46,7 @@ UNSAYABLE_OF_DESIGNS = [
     r"graphs\[\d+\]: expected \d+ agents as before",
     # the value of a fraction in a string, and bits
     r"(alpha|settle_to)(\[[01]\])?: expected a number between 0 and 1, both excluded, got ('|\")",
-    r"\[1\]: expected a number above ",
+    r"\[1\]: expected a number (above|at or above) ",
     r"numerator and denominator below 2\^",
     r"weights whose common denominator has at most 256 bits",
     r"expected an exponent between -4000 and 4000",
@@ -66,6 +67,9 @@ UNSAYABLE_OF_CERTIFICATES = [
     r"a number with a fraction or an exponent",
     r"expected a string, got '.ud800'",
     r"witness\.member: (unknown|missing) key",
+    r"limits\.(h|gamma): expected 0 <= lower <= upper",
+    r"settle_to: expected a rational in \(0, 1\)",
+    r"blocks\[\d+\]\.to: expected an integer of at least \d+",
     r"digits",
 ]
 
@@ -164,6 +168,12 @@ MORE = [
         "graphs": [{"family": "path", "agents": 2}, {"agents": 2, "edges": [[1, 2]]}],
         "gate": {"require": ["gain-bound"]},
     },
+    {
+        "alpha": "0.5",
+        "graph": {"family": "path", "agents": 2},
+        "limits": {"h": ["-0", "1/2"], "gamma": [Decimal("0.1"), 2], "u_max": 3, "settle_within": "1e2"},
+    },
+    {"alpha": "0.5", "graph": {"family": "path", "agents": 2}, "limits": {"h": [1, 1]}},
 ]
 BASES = [*GOOD.values(), *MORE, tomllib.loads(TEMPLATE.format(name=NAME), parse_float=decimal)]
 
@@ -191,6 +201,21 @@ def certificates(folder: str) -> list[Path]:
 @pytest.mark.parametrize("path", [*certificates("accepted"), *certificates("rejected")], ids=lambda path: path.stem)
 def test_both_accept_the_form_of_a_certificate(path: Path) -> None:
     document = json.loads(path.read_bytes())
+    assert certificate_refusal(document) == ""
+    CERTIFICATES.validate(document)
+
+
+SYNTHESES = [
+    feasible(ALL, START),
+    {**feasible({}), "values": {"degree_max": {"lower": "1", "upper": "1"}}},
+    impossible(HASTE, ONE, TWO, AFTER),
+    best({"gamma": ["1/2", "1"]}, "slowest-sampling", "1571/1000", END),
+    best({"settle_to": "1/100"}, "fastest", "1"),
+]
+
+
+@pytest.mark.parametrize("document", SYNTHESES)
+def test_both_accept_the_form_of_a_synthesis(document: dict[str, Any]) -> None:
     assert certificate_refusal(document) == ""
     CERTIFICATES.validate(document)
 
@@ -282,7 +307,8 @@ def walk(value: Any) -> Iterator[Any]:
 
 def test_mutants_of_designs() -> None:
     source = random.Random(1)
-    keys = [*DESIGN_SCHEMA["properties"], "agents", "edges", "adjacency", "family", "shape", "file", "limits", "graphs"]
+    keys = [*DESIGN_SCHEMA["properties"], "agents", "edges", "adjacency", "family", "shape", "file", "graphs"]
+    keys += ["u_max", "settle_within", *DESIGN_SCHEMA["properties"]["limits"]["properties"]]
     accepted = 0
     for _ in range(MUTANTS):
         document = mutated(source.choice(BASES), source, keys, VALUES)
@@ -294,6 +320,7 @@ def test_mutants_of_designs() -> None:
 def test_mutants_of_certificates() -> None:
     source = random.Random(2)
     bases = [json.loads(path.read_bytes()) for path in certificates("accepted") if path.stat().st_size < 20_000]
+    bases += SYNTHESES * 4
     keys = [
         "mu",
         "gamma",
@@ -315,6 +342,11 @@ def test_mutants_of_certificates() -> None:
         "graph",
         "solver",
         "Z",
+        "task",
+        "u_max",
+        "bound",
+        "blocks",
+        "pairs",
     ]
     accepted = 0
     for _ in range(MUTANTS):
