@@ -261,3 +261,7 @@ Goal True. idtac "==" "spectrum_inhabited". Abort.
 Print Assumptions spectrum_inhabited.
 Goal True. idtac "==" "spectrum_needs_balance". Abort.
 Print Assumptions spectrum_needs_balance.
+Goal True. idtac "==" "symmetric_step_inhabited". Abort.
+Print Assumptions symmetric_step_inhabited.
+Goal True. idtac "==" "eqL3_needs_spectrum_inhabited". Abort.
+Print Assumptions eqL3_needs_spectrum_inhabited.
