@@ -144,12 +144,11 @@ def pairs_of(choose: random.Random, agents: int) -> Pairs:
     return tuple(found)
 
 
-def bound_of(pairs: Pairs, edges: list[list[Any]], degree: Fraction) -> Fraction:
-    """The least of a/n and (a - b/D)/n, the sums of section 8, edge by edge."""
+def line_of(pairs: Pairs, edges: list[list[Any]]) -> tuple[Fraction, Fraction, Fraction]:
+    """a, b and n, the sums of section 8, edge by edge."""
     a = sum((x * y for u, v in pairs for x, y in zip(u, v, strict=True)), Fraction(0))
     b = sum((u[j - 1] * Fraction(w) * (v[j - 1] - v[i - 1]) for u, v in pairs for i, j, w in edges), Fraction(0))
-    n = sum((x * x for pair in pairs for vector in pair for x in vector), Fraction(0)) / 2
-    return min(a / n, (a - b / degree) / n)
+    return a, b, sum((x * x for pair in pairs for vector in pair for x in vector), Fraction(0)) / 2
 
 
 GRAPHS = [(complete(3, "1/4"), 3, "1/2"), (directed_cycle(4, "1/3"), 4, "1/3"), (PAPER_EDGES, 5, "2"),
@@ -162,7 +161,8 @@ def test_what_is_said_of_pairs_is_true(seed: int, precision: None) -> None:
     choose = random.Random(seed)
     edges, agents, most = GRAPHS[seed % len(GRAPHS)]
     about, pairs, matrix = on(edges, agents), pairs_of(choose, agents), laplacian(edges, agents)
-    bound = bound_of(pairs, edges, Fraction(most))
+    a, b, n = line_of(pairs, edges)
+    bound = min(a, a - b / Fraction(most)) / n
     gains = np.linspace(0, 1 / float(Fraction(most)), 9)
     deviation = np.eye(agents) - np.ones((agents, agents)) / agents
     least = min(np.linalg.norm(deviation - mu * matrix, 2) for mu in gains)

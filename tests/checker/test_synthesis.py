@@ -334,3 +334,23 @@ def test_a_solver_may_be_named_and_changes_nothing() -> None:
     document["task"]["solver"] = "x" * 65
     with pytest.raises(Malformed, match="at most 64 characters"):
         checked(document)
+
+
+@pytest.mark.parametrize(
+    "limits", [{"h": ["2", "3"]}, {"h": ["1", "2"]}, {"gamma": ["3/10", "1"]}, {"gamma": ["0", "3/10"]}]
+)
+def test_the_ends_of_a_range_lie_within(limits: Json) -> None:
+    accepted(feasible(ALL | limits, START))
+
+
+def test_as_much_as_is_allowed_and_no_more() -> None:
+    document = feasible({})
+    document["task"]["solver"] = "x" * 64
+    accepted(document)
+    most = [{"from": i, "to": i} for i in range(1, 1024)]
+    refused(impossible({"h": ["0", "1"]}, *most, {"from": 1024, "to": None}), "blocks[0] leaves no mu")
+    with pytest.raises(Malformed, match="settle_to: expected a rational in"):
+        checked(feasible({"settle_within": "1", "settle_to": "3/2"}))
+    document = feasible({})
+    document["task"]["claims"][0]["statement"] = TASK_CLAIMS["feasible"][:-1]
+    refused(document, "the statement is the one of this id")
