@@ -9,7 +9,7 @@ from fomas_verify.spectrum.loop import Loop
 ID = "average-consensus"
 STATEMENT = "for every x_0 and every i, x_i(t) tends to the mean of x_0 as t tends to infinity"
 SOURCE = "Theorem 1"
-COQ = "claims_equivalent"
+COQ = "claims_are_one"
 
 
 def decide(loop: Loop) -> Decision:

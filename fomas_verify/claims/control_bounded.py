@@ -9,7 +9,7 @@ from fomas_verify.spectrum.loop import Loop
 ID = "control-bounded"
 STATEMENT = "for every x_0, norm u_k is bounded over k and u_k tends to 0"
 SOURCE = "Theorem 1"
-COQ = "claims_equivalent"
+COQ = "claims_are_one"
 
 
 def decide(loop: Loop) -> Decision:

@@ -9,7 +9,7 @@ from fomas_verify.spectrum.loop import Loop
 ID = "perron-eigenvalues"
 STATEMENT = "1 is a simple eigenvalue of P and every other eigenvalue of P lies in the open unit disc"
 SOURCE = "after eqxik_3"
-COQ = "lyapunov"
+COQ = "eigenvalues_decide"
 
 
 def decide(loop: Loop) -> Decision:

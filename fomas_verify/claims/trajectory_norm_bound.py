@@ -18,7 +18,7 @@ from fomas_verify.spectrum.stability import Side, stability
 ID = "trajectory-norm-bound"
 STATEMENT = "norm u_k <= norm u_0 for every k >= 0, for the x_0 of the design"
 SOURCE = "eqL3"
-COQ = ""
+COQ = "control_resolvent"
 
 
 def decide(loop: Loop) -> Decision:
