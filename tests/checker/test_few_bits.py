@@ -330,7 +330,7 @@ def test_what_is_said_of_the_reach_is_true(given: str, seed: int, few_bits: None
         found = facts_of(design(complete(n), n, alpha, h=h, x0=x0, **gain))
         exact = (gamma if given == "mu" else real(gain["gamma"])) * n * mpmath.sqrt(real(str(square)))
         for x in near(exact, choose):
-            assert sizes._reach_below(found, x) in (None, sign(real(str(x)) - exact))
+            assert sizes.reach_below(found, x) in (None, sign(real(str(x)) - exact))
 
 
 @pytest.mark.parametrize("bits", [3, 10, 60])
