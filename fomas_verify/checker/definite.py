@@ -17,6 +17,7 @@ Ring = TypeVar("Ring", int, Element)
 
 QUICK_BITS = (256, 1024)
 MAX_EXACT_WORK = 2**36
+MAX_WIDE_WORK = 2**50
 
 
 def least_sign(rows: Matrix) -> int:
@@ -32,7 +33,9 @@ def least_sign(rows: Matrix) -> int:
         if sign is not None:
             return sign
     size = max(max(abs(entry) for entry in row) for row in rows).bit_length()
-    if len(rows) ** 4 * size > MAX_EXACT_WORK:
+    n = len(rows)
+    # The minors have n times as many bits; where these are many, a product or a quotient of two takes their square.
+    if n**4 * size > MAX_EXACT_WORK or n**5 * size**2 > MAX_WIDE_WORK:
         raise Undecided("a singular or nearly singular matrix is beyond the work allowed")
     return exact_sign(rows, 1, lambda entry: (entry > 0) - (entry < 0))
 

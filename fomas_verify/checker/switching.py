@@ -115,6 +115,8 @@ def _compare_gain(switched: Switched) -> int | None:
 
 def _require_form(switched: Switched, proof: Lyapunov) -> None:
     """Return if Q > 0 and Q - Pc_i(t)^T Q Pc_i(t) > 0 for every i."""
+    steps = [differences_step(graph, proof.mu) for graph in switched.graphs]
+    _limit_products(steps, _whole_rows(proof.rows)[0])
     for graph in switched.graphs:
         require_decrease(graph, proof.mu, proof.rows)
 
@@ -126,8 +128,12 @@ def _require_growth(switched: Switched, word: Word) -> None:
     need_that(inside, "witness.mu is the mu of the design, given as a number, or one of its interval")
     size = switched.design.agents - 1
     product, denominator = [[int(i == j) for j in range(size)] for i in range(size)], 1
+    left = MAX_PRODUCT_WORK
     for letter in word.graphs:
         step, f = differences_step(switched.graphs[letter - 1], word.mu)
+        left -= size**3 * _bits(product) * _bits(step)
+        if left < 0:
+            raise Undecided(f"a product of {len(word.graphs)} matrices of {size} rows is beyond the work allowed")
         limit_size(_bits(product) + _bits(step) + size.bit_length(), size)
         columns = list(zip(*product, strict=True))
         product = [[sum(map(mul, row, column)) for column in columns] for row in step]
@@ -140,10 +146,11 @@ def _require_no_form(switched: Switched, dual: Dual) -> None:
     """Return if Z_i >= 0, not all 0, and sum_i (Pc_i(t) Z_i Pc_i(t)^T - Z_i) >= 0."""
     need_that(dual.mu > 0, "0 < witness.mu")
     size = len(dual.matrices[0])
-    common = common_denominator([entry for rows in dual.matrices for row in rows for entry in row], size)
-    matrices = [[[int(entry * common) for entry in row] for row in rows] for rows in dual.matrices]
-    need_that(any(entry != 0 for rows in matrices for row in rows for entry in row), "not all Z are 0")
+    flat, _ = _whole_rows([row for rows in dual.matrices for row in rows], size)
+    matrices = [flat[i : i + size] for i in range(0, len(flat), size)]
+    need_that(any(entry != 0 for row in flat for entry in row), "not all Z are 0")
     steps = [differences_step(graph, dual.mu) for graph in switched.graphs]
+    _limit_products(steps, flat)
     scale = lcm(*(f for _, f in steps))
     limit_size(scale.bit_length(), size)
     total = [[0] * (i + 1) for i in range(size)]
@@ -158,9 +165,6 @@ def _require_no_form(switched: Switched, dual: Dual) -> None:
 def _congruence_change(step: Rows, f: int, lower: Rows) -> Rows:
     """The lower triangle of F X F^T - f^2 X for the symmetric X with this lower triangle."""
     n = len(lower)
-    bits = max(_bits(step), f.bit_length()) + n.bit_length() + max(_bits(lower), 1)
-    if n**3 * bits**2 > MAX_PRODUCT_WORK:
-        raise Undecided(f"a product of matrices of {n} rows with entries of {bits} bits is beyond the work allowed")
     full = [[lower[max(i, j)][min(i, j)] for j in range(n)] for i in range(n)]
     # Column j of X F^T is the image under X of row j of F.
     images = [[sum(map(mul, row, line)) for row in full] for line in step]
@@ -168,6 +172,22 @@ def _congruence_change(step: Rows, f: int, lower: Rows) -> Rows:
         [sum(map(mul, step[i], images[j])) - f * f * entry for j, entry in enumerate(row)]
         for i, row in enumerate(lower)
     ]
+
+
+def _limit_products(steps: Sequence[tuple[Rows, int]], lower: Rows) -> None:
+    """Raise `Undecided` if F X F^T for every step F, X with entries as large as these, is beyond the work allowed."""
+    n = len(steps[0][0])
+    bits = max(max(_bits(step), f.bit_length()) for step, f in steps) + n.bit_length() + max(_bits(lower), 1)
+    if len(steps) * n**3 * bits**2 > MAX_PRODUCT_WORK:
+        raise Undecided(
+            f"{len(steps)} products of matrices of {n} rows with entries of {bits} bits are beyond the work allowed"
+        )
+
+
+def _whole_rows(rows: Sequence[Sequence[Fraction]], size: int = 0) -> tuple[Rows, int]:
+    """(X, q), X of integers, with these rows X / q; `size` where they are those of several matrices."""
+    common = common_denominator([entry for row in rows for entry in row], size or len(rows))
+    return [[int(entry * common) for entry in row] for row in rows], common
 
 
 def _bits(rows: Sequence[Sequence[int]]) -> int:
@@ -194,21 +214,22 @@ def _require_rate(switched: Switched, rate: SwitchedRate) -> None:
     (a, b), rows = rate.ends, rate.rows
     need(switched.facts(0).compare_mu(a), (0, 1), "mu[0] <= mu")
     need(switched.facts(1).compare_mu(b), (-1, 0), "mu <= mu[1]")
-    common = common_denominator([entry for row in rows for entry in row], len(rows))
-    form = [[int(entry * common) for entry in row] for row in rows]
+    form, common = _whole_rows(rows)
     n = switched.design.agents
     norm = [[common * (n * (i == j) - 1) for j in range(i + 1)] for i in range(n - 1)]
     need(least_sign(_weighted(form, norm, 1, -1)), (0, 1), "Q - W >= 0")
     top, below = rate.kappa.numerator**2, rate.kappa.denominator**2
     need(least_sign(_weighted(norm, form, top, -below)), (0, 1), "kappa^2 W - Q >= 0")
-    for i, graph in enumerate(switched.graphs, 1):
-        for t in dict.fromkeys((a, b)):
-            need(_decay_sign(graph, t, rate.rho, form), (0, 1), f"rho^2 Q - Pc_{i}(t)^T Q Pc_{i}(t) >= 0")
+    ends = [(i, t) for i in range(len(switched.graphs)) for t in dict.fromkeys((a, b))]
+    steps = [differences_step(switched.graphs[i], t) for i, t in ends]
+    _limit_products(steps, form)
+    for (i, _), (step, f) in zip(ends, steps, strict=True):
+        sign = _decay_sign(step, f, rate.rho, form)
+        need(sign, (0, 1), f"rho^2 Q - Pc_{i + 1}(t)^T Q Pc_{i + 1}(t) >= 0")
 
 
-def _decay_sign(graph: Graph, t: Fraction, rho: Fraction, form: Rows) -> int:
-    """The sign of the least eigenvalue of rho^2 Q - Pc(t)^T Q Pc(t)."""
-    step, f = differences_step(graph, t)
+def _decay_sign(step: Rows, f: int, rho: Fraction, form: Rows) -> int:
+    """The sign of the least eigenvalue of rho^2 Q - Pc^T Q Pc, Pc = F / f."""
     change = _congruence_change([list(column) for column in zip(*step, strict=True)], f, form)
     # f^2 (P^T Q P - Q) <= (rho^2 - 1) f^2 Q.
     p, q = rho.numerator**2, rho.denominator**2

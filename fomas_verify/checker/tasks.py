@@ -20,6 +20,7 @@ from fomas_verify.checker.trajectory import error_columns
 from fomas_verify.checker.value_form import GainMargin
 
 BITS = 256
+MAX_SHOWN_BITS = 64
 _PEAK_IS_1 = ("repaired", "repaired-closed-form")
 
 
@@ -39,12 +40,13 @@ def require_task_claim(facts: Facts, task: Task, claim: TaskClaim) -> str:
     """
     need_that(claim.statement == TASK_CLAIMS[claim.id], "the statement is the one of this id, to the letter")
     strip = task.condition.strip
-    if claim.id == "feasible" and claim.verdict == "proved":
-        need_that(strip is not None, "some mu satisfies the condition")
-        _require_feasible(facts, task, cast(GainMargin, strip))
-        return "gamma and h of the design satisfy the condition and the limits"
     if strip is None:
+        need_that(claim.id == "best" or claim.verdict == "refuted", "some mu satisfies the condition")
         return "no mu satisfies the condition"
+    _require_meaning(facts, task.limits)
+    if claim.id == "feasible" and claim.verdict == "proved":
+        _require_feasible(facts, task, strip)
+        return "gamma and h of the design satisfy the condition and the limits"
     room = _room(facts, task.limits, strip)
     if claim.id == "feasible":
         _require_impossible(facts, task.limits, room, claim.blocks)
@@ -54,6 +56,12 @@ def require_task_claim(facts: Facts, task: Task, claim: TaskClaim) -> str:
     else:
         _require_impossible(facts, task.limits, _tightened(room, task.objective, claim.bound), claim.blocks)
     return "no gamma and h that satisfy the condition and the limits are as good as the bound"
+
+
+def _require_meaning(facts: Facts, limits: Limits) -> None:
+    """Return if the peak and sigma exist, where a limit is about them: `gain-bound` is met on any graph."""
+    free = limits.u_max is None and limits.settle_to is None
+    need_that(free or facts.graph.satisfies_assumption, "u_max and settle_to have a meaning (Assumption 1 fails)")
 
 
 def _require_feasible(facts: Facts, task: Task, strip: GainMargin) -> None:
@@ -70,7 +78,9 @@ def _require_feasible(facts: Facts, task: Task, strip: GainMargin) -> None:
     if limits.within is not None:
         eps, k = cast(Fraction, limits.settle_to), int(limits.within / h)
         need_that(k > 0, "h <= settle_within")
-        need(facts.compare_sigma(lambda bits: _root(eps, k, bits)), (0, 1), f"sigma^{k} <= settle_to")
+        # A number of samples that is too long to print is not printed.
+        shown = f"sigma^{k}" if k.bit_length() <= MAX_SHOWN_BITS else "sigma^floor(settle_within/h)"
+        need(facts.compare_sigma(lambda bits: _root(eps, k, bits)), (0, 1), f"{shown} <= settle_to")
 
 
 def _require_actuator(facts: Facts, condition: str, gamma: Fraction, u_max: Fraction) -> None:

@@ -121,3 +121,13 @@ def test_a_large_singular_matrix_is_beyond_the_work_allowed() -> None:
     rows = [[huge] * (i + 1) for i in range(60)]
     with pytest.raises(Undecided, match="singular"):
         least_sign(rows)
+
+
+def test_few_rows_of_wide_entries_are_beyond_the_work_allowed() -> None:
+    """A form of rank 9 on 10 rows whose entries have 200 000 bits: its elimination would take minutes."""
+    wide = 1 << 200_000
+    rows = [[wide + i + j + (wide >> 1) * (i == j) for j in range(i + 1)] for i in range(9)]
+    rows.append([sum(rows[max(i, j)][min(i, j)] for i in range(9)) for j in range(9)])
+    rows[-1].append(sum(rows[-1]))
+    with pytest.raises(Undecided, match="nearly singular"):
+        least_sign(rows)

@@ -27,6 +27,7 @@ def named(pattern: str) -> int:
         (report.MAX_AGENTS, r"(\d+) agents;"),
         (graph.MAX_DENOMINATOR_BITS, r"(2\^\d+) bits in the common denominator"),
         (definite.MAX_EXACT_WORK, r"exact elimination N\^4 bits <= (2\^\d+)"),
+        (definite.MAX_WIDE_WORK, r"and N\^5 bits\^2 <= (2\^\d+)"),
         (facts.MAX_FIELD_WORK, r"degree\^2 N\^3 <= (2\^\d+)"),
         (contraction.MAX_POLYNOMIAL_WORK, r"length\^3 bits <= (2\^\d+)"),
         (stability.MAX_PRODUCT_WORK, r"N\^3 bits\^2 <= (2\^\d+)"),

@@ -10,7 +10,7 @@ import pytest
 
 from fomas_verify.checker import Malformed, check, switching
 from fomas_verify.checker.statements import SWITCHED_STATEMENTS
-from tests.checker.builder import PAPER_EDGES, Json, checked
+from tests.checker.builder import PAPER_EDGES, Json, checked, directed_cycle
 from tests.checker.switched import (
     DUAL,
     FORM,
@@ -268,6 +268,32 @@ def test_work_is_bounded(monkeypatch: pytest.MonkeyPatch, document: Json) -> Non
     document = place(document, "values.rate", {"kappa": "99", "rho": "999/1000", "mu": ["13/20", "17/25"], "Q": FORM})
     assert "undecided" in statuses(document)
     assert checked(document).exit_status == 3
+
+
+def test_the_work_of_a_word_is_bounded() -> None:
+    """Wide weights in a long word: the products of their matrices would take minutes."""
+    width = "9" * 12_000
+    ring = [[source, target, f"1/{width}"] for source, target, _ in directed_cycle(20)]
+    word = {"word": [1] * 64, "mu": f"1/{width[1:]}7", "power": 1}
+    document = switched(about(ring, mu=word["mu"], agents=20), said("control-bounded", "refuted", **word))
+    (outcome,) = checked(document).outcomes
+    assert (outcome.status, outcome.reason) == (
+        "undecided", "a product of 64 matrices of 19 rows is beyond the work allowed"
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("document", [proved(), undecided()], ids=["proved", "undecided"])
+def test_the_work_of_many_graphs_is_that_of_all(monkeypatch: pytest.MonkeyPatch, document: Json) -> None:
+    """4^3 (bits)^2 of the forms here is below 2^17 for one graph, and beyond it for 64 of them."""
+    monkeypatch.setattr(switching, "MAX_PRODUCT_WORK", 2**17)
+    assert checked(document).exit_status == 0
+    document["design"]["graphs"] *= 32
+    for one in document["claims"]:
+        if "Z" in one["witness"]:
+            one["witness"]["Z"] *= 32
+    assert checked(document).exit_status == 3
+    monkeypatch.undo()
+    assert checked(document).exit_status == 0
 
 
 def test_a_slow_rate_by_another_form() -> None:

@@ -152,6 +152,31 @@ def test_a_condition_of_no_mu_needs_no_more() -> None:
     refused(document, "some mu satisfies the condition")
 
 
+@pytest.mark.parametrize("edges", [[[1, 2, "1"]], [[1, 2, "1"], [2, 1, "1/2"]]])
+def test_peak_and_sigma_mean_nothing_without_assumption_1(edges: list[list[Any]]) -> None:
+    """gain-bound is met by mu = 1/2 m(1/4) = 0.2821 on any graph; agent 2 alone moves, or more, so the mean moves."""
+    meets = condition("gain-bound", "proved", mu={"inner": ["1/100", "99/100"], "outer": ["0", "1"]})
+    about = {"gamma": "1/2", "h": "1/4", "x0": ["1", "-1"]}
+    for limits in ({"u_max": "100"}, {"settle_within": "1000", "settle_to": "1/10"}):
+        shut = limits | {"gamma": ["2", "3"], "h": ["9", "10"]}
+        for document in (feasible(limits, about, meets=meets), impossible(shut, END, about=about, meets=meets)):
+            document["design"]["edges"] = edges
+            refused(document, "u_max and settle_to have a meaning (Assumption 1 fails)")
+    free = feasible({"h": ["0", "1"]}, about, meets=meets)
+    free["design"]["edges"] = edges
+    accepted(free)
+
+
+def test_more_samples_than_can_be_printed() -> None:
+    """2 mu = 0.9575, so sigma = 0.0425; where mu = 1e-6000, no precision decides between sigma and the root."""
+    endless = {"settle_within": "9" * 5000, "settle_to": "1/100"}
+    accepted(feasible(endless, START))
+    meets = condition("gain-bound", "proved", mu={"inner": ["1/1" + "0" * 7000, "99/100"], "outer": ["0", "1"]})
+    status, reasons = answer(feasible(endless, {"gamma": "1/1" + "0" * 6000, "h": "1"}, meets=meets))
+    assert status == 3
+    assert "sigma^floor(settle_within/h) <= settle_to" in reasons[0]
+
+
 def test_limits_that_leave_no_mu() -> None:
     """gamma_1 m(h_1): m(1) = 1.1284, LOW = 0.29289, so gamma reaches at h = 1 to 0.25957 at least; HIGH likewise."""
     accepted(impossible({"h": ["0", "1"], "gamma": ["0", "259/1000"]}, END))
