@@ -11,11 +11,15 @@ from fomas_verify.checker.corners import first_sign, lambda2, second_sign, sigma
 from fomas_verify.checker.facts import Facts, compare
 from fomas_verify.checker.graph import Graph, common_denominator
 from fomas_verify.checker.margins import require_stable
+from fomas_verify.checker.packed import largest
 from fomas_verify.checker.powers import Enclosure, first_threshold, point, quotient
 from fomas_verify.checker.region_form import Condition, Opening, Pairs
-from fomas_verify.checker.ruling import need, need_that
+from fomas_verify.checker.ruling import Undecided, need, need_that
 from fomas_verify.checker.statements import CONDITIONS
 from fomas_verify.checker.value_form import GainMargin
+
+
+MAX_PAIRS_WORK = 2**42
 
 
 def require_condition(facts: Facts, condition: Condition) -> str:
@@ -126,18 +130,30 @@ def _pairs_sign(graph: Graph, alpha: Fraction, pairs: Pairs) -> int | None:
     return compare(lambda bits: first_threshold(alpha, bits), min(a, a - b / graph.degree_max) / n)
 
 
-def pairs_line(graph: Graph, pairs: Pairs) -> tuple[Fraction, Fraction, Fraction]:
-    """(a, b, n), n > 0, with sigma(mu) >= (a - mu b)/n for every mu; raises `Refused` where the pairs give none."""
+def pairs_line(graph: Graph, pairs: Pairs, shares: int = 1) -> tuple[Fraction, Fraction, Fraction]:
+    """(a, b, n), n > 0, with sigma(mu) >= (a - mu b)/n for every mu; raises `Refused` where the pairs give none.
+
+    The work allowed is one of `shares` parts.
+    """
     need_that(len(pairs) > 0, "there are pairs of vectors")
     need_that(all(sum(x) == 0 for pair in pairs for x in pair), "every vector of the pairs sums to 0")
     common = common_denominator([entry for pair in pairs for x in pair for entry in x], graph.agents)
+    whole = [[[int(entry * common) for entry in x] for x in pair] for pair in pairs]
+    if shares * _pairs_work(graph, whole) > MAX_PAIRS_WORK:
+        raise Undecided("as many pairs of vectors are beyond the work allowed")
     a = b = n = 0
-    for u, v in ([[int(entry * common) for entry in x] for x in pair] for pair in pairs):
+    for u, v in whole:
         a += sum(map(mul, u, v))
         b += sum(map(mul, u, (sum(map(mul, row, v)) for row in graph.laplacian)))
         n += sum(map(mul, u, u)) + sum(map(mul, v, v))
     need_that(n > 0, "not all vectors of the pairs are 0")
     return Fraction(2 * a), Fraction(2 * b, graph.denominator), Fraction(n)
+
+
+def _pairs_work(graph: Graph, whole: list[list[list[int]]]) -> int:
+    """What the images of so many vectors take: entries times bits of both factors, no factor below a machine word's."""
+    bits = max(largest(pair) for pair in whole).bit_length()
+    return len(whole) * graph.agents**2 * (bits + 64) * (largest(graph.laplacian).bit_length() + 64)
 
 
 def _require_opening(graph: Graph, name: str, opening: Opening) -> None:

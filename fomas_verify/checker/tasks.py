@@ -137,11 +137,13 @@ def _require_impossible(facts: Facts, limits: Limits, room: _Room, blocks: Seque
     for i, block in enumerate(blocks):
         need_that(after is not None and block.first == after + 1, f"blocks[{i}] begins where the one before ends")
         after = block.last
-        _require_block(facts, limits.settle_to, room, block, f"blocks[{i}]")
+        _require_block(facts, limits.settle_to, room, block, f"blocks[{i}]", len(blocks))
     need_that(after is None, "the last block has no end")
 
 
-def _require_block(facts: Facts, settle_to: Fraction | None, room: _Room, block: Block, name: str) -> None:
+def _require_block(
+    facts: Facts, settle_to: Fraction | None, room: _Room, block: Block, name: str, shares: int
+) -> None:
     """Return if no gamma and h are left to the samples of a block."""
     (h_least, h_most), (least, most) = room.h, room.gamma
     longest = _lesser(h_most, None if room.within is None else room.within / block.first)
@@ -156,7 +158,7 @@ def _require_block(facts: Facts, settle_to: Fraction | None, room: _Room, block:
         return
     shown = settle_to is not None and room.within is not None and block.last is not None and bool(block.pairs)
     need_that(shown, f"{name} leaves no mu, or has pairs that show sigma on what it leaves")
-    a, b, n = pairs_line(facts.graph, block.pairs)
+    a, b, n = pairs_line(facts.graph, block.pairs, shares)
     beyond = _root(cast(Fraction, settle_to), cast(int, block.last), BITS).upper
     need_that(min(a - low * b, a - high * b) > beyond * n, f"the pairs of {name} show that sigma^to > settle_to")
 

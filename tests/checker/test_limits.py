@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from fomas_verify.checker import contraction, definite, facts, graph, report, stability, text
+from fomas_verify.checker import contraction, definite, facts, graph, regions, report, stability, text
 
 PAGE = " ".join((Path(__file__).resolve().parents[2] / "docs" / "certificate-format.md").read_text().split())
 
@@ -28,6 +28,7 @@ def named(pattern: str) -> int:
         (graph.MAX_DENOMINATOR_BITS, r"(2\^\d+) bits in the common denominator"),
         (definite.MAX_EXACT_WORK, r"exact elimination N\^4 bits <= (2\^\d+)"),
         (definite.MAX_WIDE_WORK, r"and N\^5 bits\^2 <= (2\^\d+)"),
+        (regions.MAX_PAIRS_WORK, r"bits of the weights \+ 64\) <= (2\^\d+)"),
         (facts.MAX_FIELD_WORK, r"degree\^2 N\^3 <= (2\^\d+)"),
         (contraction.MAX_POLYNOMIAL_WORK, r"length\^3 bits <= (2\^\d+)"),
         (stability.MAX_PRODUCT_WORK, r"N\^3 bits\^2 <= (2\^\d+)"),

@@ -11,7 +11,7 @@ from typing import Any
 import mpmath
 import pytest
 
-from fomas_verify.checker import Malformed
+from fomas_verify.checker import Malformed, regions
 from fomas_verify.checker.statements import TASK_CLAIMS
 from tests.checker.builder import Json, checked, claim, decimal, path
 from tests.checker.test_region import HIGH, LOW, MOST, condition, region, strip
@@ -202,6 +202,15 @@ def test_blocks_of_samples() -> None:
     assert answer(impossible(HASTE, ONE, TWO, AFTER))[1] == ["no gamma and h satisfy the condition and the limits"]
     refused(impossible(HASTE | {"settle_within": "1925/10000"}, ONE, TWO, AFTER), "the pairs of blocks[0]")
     accepted(impossible(HASTE | {"settle_within": "1/10", "h": ["11/100", "1"]}, END))  # h_0 > T
+
+
+def test_the_work_of_all_blocks_is_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A block has one pair with entries of one bit on two agents, the weights one bit too: 4 * 65^2, three times."""
+    monkeypatch.setattr(regions, "MAX_PAIRS_WORK", 3 * 4 * 65**2)
+    accepted(impossible(HASTE, ONE, TWO, AFTER))
+    monkeypatch.setattr(regions, "MAX_PAIRS_WORK", 3 * 4 * 65**2 - 1)
+    status, reasons = answer(impossible(HASTE, ONE, TWO, AFTER))
+    assert (status, reasons) == (3, ["as many pairs of vectors are beyond the work allowed"])
 
 
 @pytest.mark.parametrize(
