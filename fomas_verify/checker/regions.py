@@ -18,7 +18,6 @@ from fomas_verify.checker.ruling import Undecided, need, need_that
 from fomas_verify.checker.statements import CONDITIONS
 from fomas_verify.checker.value_form import GainMargin
 
-
 MAX_PAIRS_WORK = 2**42
 
 

@@ -142,9 +142,9 @@ def _require_impossible(facts: Facts, limits: Limits, room: _Room, blocks: Seque
 
 
 def _require_block(
-    facts: Facts, settle_to: Fraction | None, room: _Room, block: Block, name: str, shares: int
+    facts: Facts, settle_to: Fraction | None, room: _Room, block: Block, name: str, shares: int = 1
 ) -> None:
-    """Return if no gamma and h are left to the samples of a block."""
+    """Return if no gamma and h are left to the samples of a block; the work allowed is one of `shares` parts."""
     (h_least, h_most), (least, most) = room.h, room.gamma
     longest = _lesser(h_most, None if room.within is None else room.within / block.first)
     if (longest is not None and h_least > longest) or (most is not None and least > most):
