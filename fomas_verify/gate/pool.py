@@ -86,5 +86,6 @@ def _processes(count: int) -> Iterator[ProcessPoolExecutor]:
         pool.shutdown(wait=False, cancel_futures=True)
         for process in set(active_children()) - before:
             process.terminate()
+        pool.shutdown()  # its thread must have ended before the interpreter does, which would wake it by a closed pipe
         raise
     pool.shutdown()
