@@ -83,9 +83,9 @@ def _processes(count: int) -> Iterator[ProcessPoolExecutor]:
     try:
         yield pool
     except BaseException:
-        pool.shutdown(wait=False, cancel_futures=True)
         for process in set(active_children()) - before:
             process.terminate()
-        pool.shutdown()  # its thread must have ended before the interpreter does, which would wake it by a closed pipe
+        # Waits, once: its thread must have ended before the interpreter does, which would wake it by a closed pipe.
+        pool.shutdown(cancel_futures=True)
         raise
     pool.shutdown()
