@@ -12,6 +12,7 @@ from fomas_verify.checker.facts import BITS, Facts
 from fomas_verify.checker.graph import Graph
 from fomas_verify.checker.iteration import iterated, squared
 from fomas_verify.checker.powers import Enclosure, first_threshold, outward, point, quotient, second_threshold
+from fomas_verify.checker.ruling import Undecided
 from fomas_verify.checker.thresholds import beta_below_first, beta_below_second, sigma_below_first
 
 MAX_SIGN_WORK = 2**30
@@ -35,8 +36,7 @@ def lambda2(graph: Graph) -> Enclosure:
         near = upper - upper / (2 * _RELATIVE)
         if quick_sign(facts.gap_form(near), _BITS, (1,)) == 1:
             simple = (upper / graph.degree_max).limit_denominator(_SIMPLE) * graph.degree_max
-            is_exact = near < simple <= upper and least_sign(facts.gap_form(simple)) == 0
-            return point(simple) if is_exact else Enclosure(near, upper)
+            return point(simple) if near < simple <= upper and _is_tie(facts, simple) else Enclosure(near, upper)
     for _ in range(steps):
         if upper - lower <= lower / _RELATIVE:
             break
@@ -48,6 +48,14 @@ def lambda2(graph: Graph) -> Enclosure:
             return point(middle)
         lower, upper = (middle, upper) if sign > 0 else (lower, middle)
     return Enclosure(lower, upper)
+
+
+def _is_tie(facts: Facts, x: Fraction) -> bool:
+    """Whether lambda2 = x is seen; where that takes too much work, an enclosure is as good."""
+    try:
+        return least_sign(facts.gap_form(x)) == 0
+    except Undecided:
+        return False
 
 
 def _lambda2_above(graph: Graph) -> Fraction:

@@ -8,7 +8,7 @@ from typing import Any
 import mpmath
 import pytest
 
-from fomas_verify.checker import Malformed, check, corners, facts, parts
+from fomas_verify.checker import Malformed, check, corners, definite, facts, parts
 from fomas_verify.checker.box import Box, require_over
 from fomas_verify.checker.corners import first_sign, lambda2, second_sign, sigma_sign
 from fomas_verify.checker.gain import Gain
@@ -144,6 +144,13 @@ def test_lambda2_where_it_is_irrational_or_beyond_the_work_allowed(monkeypatch: 
     monkeypatch.setattr(corners, "MAX_SIGN_WORK", 64 * 3)
     coarse = lambda2.__wrapped__(about)
     assert (coarse.lower, coarse.upper) == (Fraction(1, 2), 1)
+
+
+def test_lambda2_where_a_tie_takes_too_much_work_to_be_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+    """lambda2 = 1 on the paper's graph."""
+    monkeypatch.setattr(definite, "MAX_EXACT_WORK", 1)
+    found = lambda2.__wrapped__(graph(PAPER))
+    assert 1 - Fraction(1, 2**60) <= found.lower < 1 <= found.upper
 
 
 def test_corners() -> None:
