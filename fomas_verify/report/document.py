@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from fomas_verify.report.latex_tree import PARAGRAPH, Environment, Group, Macro, Math, Node, Nodes, Text
 
+VERDICTS = ("proved", "refuted", "undecided", "inapplicable")
+"""Macros that print a verdict."""
+SPACES = re.compile(r"[ \n]+")
+"""What LaTeX prints as one space."""
 _BLOCKS = ("reporttitle", "reportlead", "section", "section*", "subsection", "caption")
 
 

@@ -8,6 +8,8 @@ from collections.abc import Mapping
 from importlib.resources import files
 
 from fomas_verify.report.document import (
+    SPACES,
+    VERDICTS,
     Block,
     Blocks,
     Document,
@@ -29,11 +31,9 @@ from fomas_verify.report.plot import Plot
 from fomas_verify.report.plot_svg import band_sample, legend_sample, svg_plot
 
 _TAGS = {"textbf": "b", "textit": "i", "emph": "em", "texttt": "code", "claimid": "code", "mbox": "span"}
-_VERDICTS = ("proved", "refuted", "undecided", "inapplicable")
 _POLICY = "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'"
 _PUNCTUATED = re.compile(r"(<math\b(?:(?!<math\b).)*?</math>)([,.;:)]+)")
 """A formula and what must stay on its line."""
-_SPACES = re.compile(r"[ \n]+")
 
 
 def html_page(body: Document, title: str, figures: Mapping[str, Picture | Plot]) -> str:
@@ -109,7 +109,7 @@ class _Writer:
         return f'<div class="plot">{title}{svg_plot(figure, name)}<div class="legend">{legend}</div></div>'
 
     def line(self, nodes: Nodes) -> str:
-        text = _SPACES.sub(" ", "".join(map(self._node, nodes))).strip(" ")
+        text = SPACES.sub(" ", "".join(map(self._node, nodes))).strip(" ")
         return _PUNCTUATED.sub(r'<span class="whole">\1\2</span>', text)
 
     def _node(self, node: Node) -> str:
@@ -125,7 +125,7 @@ class _Writer:
         raise TypeError(f"a block in the line: {node}")
 
     def _macro(self, node: Macro) -> str:
-        if node.name in _VERDICTS:
+        if node.name in VERDICTS:
             return f'<span class="{node.name}">{node.name}</span>'
         if node.name == "allowbreak":
             return "<wbr>"

@@ -6,6 +6,8 @@ import re
 from collections.abc import Mapping
 
 from fomas_verify.report.document import (
+    SPACES,
+    VERDICTS,
     Block,
     Blocks,
     Document,
@@ -23,9 +25,7 @@ from fomas_verify.report.document import (
 from fomas_verify.report.latex_tree import Group, Macro, Math, Node, Nodes, Text
 
 _MARKS = {"textit": "*", "emph": "*", "mbox": ""}
-_VERDICTS = ("proved", "refuted", "undecided", "inapplicable")
 _SPECIAL = re.compile(r"[\\`*_{}\[\]|~$!]")
-_SPACES = re.compile(r"[ \n]+")
 _REFERENCES = re.compile(r"([@#])(?=\w)")
 
 
@@ -81,7 +81,7 @@ class _Writer:
         return "\n".join([lines[0], "|" + "---|" * width, *lines[1:]])
 
     def line(self, nodes: Nodes) -> str:
-        return _SPACES.sub(" ", "".join(map(self._node, nodes))).strip(" ")
+        return SPACES.sub(" ", "".join(map(self._node, nodes))).strip(" ")
 
     def _node(self, node: Node) -> str:
         match node:
@@ -89,7 +89,7 @@ class _Writer:
                 return escaped(node.text)
             case Math():
                 source = node.source.replace(r"\allowbreak", "").replace(r"\displaystyle", "").strip()
-                return f"$`{_SPACES.sub(' ', source)}`$"
+                return f"$`{SPACES.sub(' ', source)}`$"
             case Group():
                 return "".join(map(self._node, node.body))
             case Macro():
@@ -97,7 +97,7 @@ class _Writer:
         raise TypeError(f"a block in the line: {node}")
 
     def _macro(self, node: Macro) -> str:
-        if node.name in _VERDICTS:
+        if node.name in VERDICTS:
             return f"**{node.name}**"
         if node.name in ("allowbreak", "\\"):
             return "" if node.name == "allowbreak" else "<br>"

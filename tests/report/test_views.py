@@ -150,7 +150,7 @@ def test_a_closed_form_outside_of_its_enclosure_is_refused() -> None:
 def test_another_polynomial_is_refused(paper: Proof, monkeypatch: pytest.MonkeyPatch) -> None:
     import sympy
 
-    class Other(sympy.Matrix):  # type: ignore[misc]
+    class Other(sympy.Matrix):
         def charpoly(self, x: object) -> object:
             return sympy.Poly(x**5 - 1, x)
 
