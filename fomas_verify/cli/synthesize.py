@@ -85,6 +85,8 @@ def command(
     """
     if symmetric and not weights:
         raise click.UsageError("--symmetric: expected with --weights only")
+    if output is not None and output.suffix not in ("", ".toml"):
+        raise DesignError(f"{output}: expected a folder or a name that ends in .toml")
     named = read_design(design)
     chosen = _weights(named, symmetric=symmetric) if weights else None
     region = find_region(named if chosen is None else weighted_design(named, chosen))
@@ -189,8 +191,6 @@ def _write(output: Path | None, task: Task, text: bytes | None, certificate: byt
         return
     if output.suffix == ".toml":
         paths = output, output.with_suffix(".json")
-    elif output.suffix:
-        raise DesignError(f"{output}: expected a folder or a name that ends in .toml")
     else:
         make_folder(output)
         stem = f"{Path(task.design.source).name.split('.')[0]}-{task.objective}"

@@ -88,8 +88,8 @@ class Task:
     @property
     def moves(self) -> tuple[int, int]:
         """Whether gamma and h are free to move: 0 for one that the limits fix."""
-        ranges = (self.limits.gamma, self.limits.h)
-        return tuple(int(x is None or x[0] < x[1]) for x in ranges)  # type: ignore[return-value]
+        gamma, h = (int(x is None or x[0] < x[1]) for x in (self.limits.gamma, self.limits.h))
+        return gamma, h
 
     @property
     def within(self) -> Fraction | None:

@@ -81,9 +81,9 @@ def test_the_new_design_is_proved_again_by_prove(verify: Verify, gentlest: Path)
 
 
 def _at(document: dict, *keys: object) -> object:
-    place: object = document
+    place = document
     for key in keys:
-        place = place[key]  # type: ignore[index]
+        place = place[key]
     return place
 
 
@@ -112,6 +112,14 @@ def test_a_certificate_that_was_changed_is_refused(gentlest: Path, tamper: Calla
         assert check(json.dumps(document).encode()).exit_status == 1
     except Malformed:
         pytest.fail("a defect of form, which shows nothing of the tests")
+
+
+def test_an_output_of_another_kind_is_refused(verify: Verify, tmp_path: Path) -> None:
+    done = verify("synthesize", design(tmp_path, "h = [0.1, 2]"), "-o", tmp_path / "best.yaml")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.endswith("best.yaml: expected a folder or a name that ends in .toml\n")
+    assert done.stderr.count("\n") == 1
+    assert not (tmp_path / "best.yaml").exists()
 
 
 @pytest.mark.parametrize("alpha", ["0.8", "0.86"])
