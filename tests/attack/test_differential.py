@@ -14,6 +14,8 @@ from .oracle import CLAIMS
 from .strata import STRATA, designs
 from .test_oracle import UNKNOWN
 
+pytestmark = pytest.mark.slow
+
 
 def assert_agreed(comparisons: list[Comparison]) -> None:
     assert {c.name: (c.faults, c.design) for c in comparisons if c.faults} == {}
@@ -37,12 +39,10 @@ def test_verdicts_known_without_the_oracle(name):
     assert KNOWN[name].keys() - given.keys() <= {*NORM_BOUNDS}
 
 
-@pytest.mark.slow
 def test_forty_random_designs():
     assert_agreed([compare(name, design) for name, design in designs(21, 40)])
 
 
-@pytest.mark.slow
 def test_three_hundred_random_designs():
     comparisons = [compare(name, design) for name, design in designs(22, 300)]
     assert_agreed(comparisons)

@@ -15,6 +15,8 @@ from .designs import NAMED
 from .digits import ratio
 from .form import STATEMENTS
 
+pytestmark = pytest.mark.slow
+
 F = Fraction
 
 

@@ -25,6 +25,8 @@ from .mutants import mutants
 from .test_mutants import assert_stood, drawn
 from .truth import judge
 
+pytestmark = pytest.mark.slow
+
 Boxes = list[tuple[tuple[str, str], tuple[str, str]]]
 UNCLEAR = {"k2-tie"}
 
@@ -171,7 +173,6 @@ def test_twenty_mutants_of_uncertain_designs(of_families):
     assert_stood(duel([*mutants(of_families, 31, 10), *drawn(of_families, 10)]))
 
 
-@pytest.mark.slow
 def test_four_hundred_mutants_of_uncertain_designs(of_families):
     assert_stood(duel([*mutants(of_families, 32, 200), *drawn(of_families, 200)]))
 
@@ -184,7 +185,6 @@ def test_prover_and_checker_on_named_uncertain_designs(name):
     assert {claim: dict(comparison.verdicts)[claim] for claim in known} == known
 
 
-@pytest.mark.slow
 def test_sixty_random_uncertain_designs():
     comparisons = [compare_family(*family_at(41, index)) for index in range(60)]
     assert {c.name: (c.faults, c.design) for c in comparisons if c.faults} == {}

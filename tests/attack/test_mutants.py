@@ -17,6 +17,8 @@ from .mutate_ends import fitted
 from .strict_json import loads
 from .truth import judge
 
+pytestmark = pytest.mark.slow
+
 GOLDEN = (
     "paper",
     "k2-swap",
@@ -70,7 +72,6 @@ def test_forty_mutants_of_margins(with_margins):
     assert_stood(duel(drawn(with_margins, 40)))
 
 
-@pytest.mark.slow
 def test_six_hundred_mutants_of_margins(with_margins, golden):
     proved = {name: data for name, data in golden.items() if name.endswith("proved")}
     assert_stood(duel(drawn({**with_margins, **proved}, 600)))
@@ -80,12 +81,10 @@ def test_two_hundred_mutants(golden):
     assert_stood(duel(mutants(golden, 11, 200)))
 
 
-@pytest.mark.slow
 def test_two_thousand_mutants(golden):
     assert_stood(duel(mutants(golden, 12, 2000)))
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "refused", "accepted"), [("paper", 200, 50), ("c4-third", 20, 20), ("unbalanced", 5, 5)]
 )

@@ -15,6 +15,8 @@ from .designs import FURTHER, NAMED, PUBLISHED, STARTED, TIES, complete, directe
 from .model import Design, laplacian
 from .response import kernel, on_1perp
 
+pytestmark = pytest.mark.slow
+
 F = Fraction
 PAPER = STARTED["paper-trajectory"]
 

@@ -12,6 +12,8 @@ from .designs import NAMED
 from .mutants import mutants, sweep
 from .truth import judge
 
+pytestmark = pytest.mark.slow
+
 Change = Callable[[dict[str, Any]], object]
 
 

@@ -31,6 +31,8 @@ from tests.checker.sampled import (
 from tests.checker.test_few_bits import drawn, near, sign
 from tests.checker.test_samples import facts
 
+pytestmark = pytest.mark.slow
+
 DESIGNS: list[Json] = [
     design(PAPER_EDGES, 5, gamma="3/20", h="17/20"),
     design(PAPER_EDGES, 5, "1/10", mu="2/5"),

@@ -9,6 +9,8 @@ from fomas_verify.claims.verdict import Decision, Verdict
 from fomas_verify.design import design_from_mapping
 from fomas_verify.prover import prove
 
+pytestmark = pytest.mark.slow
+
 PAPER = {"adjacency": [[0, 0, 0, 1, 1], [1, 0, 1, 0, 0], [1, 1, 0, 0, 0], [0, 1, 1, 0, 0], [0, 0, 0, 1, 0]]}
 NUMBER = r"(\d[\d.]*(?:e[+-]?\d+)?)"
 BOUND = rf"(to at least|to at most|below) {NUMBER}"

@@ -9,6 +9,8 @@ from subprocess import CompletedProcess
 
 import pytest
 
+pytestmark = pytest.mark.slow
+
 Verify = Callable[..., CompletedProcess[str]]
 
 GRAPHS = """[[graphs]]

@@ -13,6 +13,8 @@ from fomas_verify.checker import Malformed, check
 from fomas_verify.cli.app import main
 from fomas_verify.design import read_design
 
+pytestmark = pytest.mark.slow
+
 Verify = Callable[..., CompletedProcess[str]]
 
 GRAPH = """[graph]

@@ -22,6 +22,8 @@ from fomas_verify.report.markdown_text import escaped
 from fomas_verify.report.missing import MissingExtraError
 from tests.report.designs import DESIGNS, HOSTILE, complaints, needs_latex, proof_of, rendered
 
+pytestmark = pytest.mark.slow
+
 SMALL_AND_LARGE = [pytest.param(x, marks=pytest.mark.slow) if x == "ring of 100" else x for x in DESIGNS]
 VOID = {"meta", "br", "wbr", "mspace"}
 
@@ -190,7 +192,6 @@ def test_a_comparison_says_what_differs(paper: Proof, checkout: Path, tmp_path: 
 
 
 @needs_latex
-@pytest.mark.slow
 @pytest.mark.parametrize("name", [*DESIGNS, "paper"])
 def test_in_brief_it_is_one_page(name: str, paper: Proof, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     seen: list[Compilation] = []
@@ -246,7 +247,6 @@ def test_calls_that_do_not_go_together(arguments: list[str], said: str, checkout
     assert not (tmp_path / "out").exists()
 
 
-@pytest.mark.slow
 @pytest.mark.skipif(shutil.which("chromium") is None, reason="chromium is missing")
 def test_a_phone_scrolls_no_page_sideways(paper: Proof, tmp_path: Path) -> None:
     """The page in a frame of 390 pixels, asked by the page around it how wide it is."""

@@ -24,6 +24,8 @@ from fomas_verify.report.files import OutputError
 from fomas_verify.report.missing import MissingExtraError
 from tests.report.designs import DESIGNS, HOSTILE, complaints, needs_latex, proof_of
 
+pytestmark = pytest.mark.slow
+
 COMMAND = "verify-design report examples/paper.toml -o reports/paper"
 DATA = ("memory-inequality.csv", "states.csv", "sizes.csv")
 NO_PDF = Compilation(None, "no PDF: for this test", "")
@@ -168,7 +170,6 @@ def test_undecided_is_never_told_as_proved_or_refuted(paper: Proof, tmp_path: Pa
 
 
 @needs_latex
-@pytest.mark.slow
 @pytest.mark.parametrize("name", [*DESIGNS, "paper"])
 def test_latex_has_nothing_to_complain_of(name: str, paper: Proof, tmp_path: Path, monkeypatch) -> None:
     seen: list[Compilation] = []
