@@ -85,6 +85,14 @@ REFUSED = {
         "%%MatrixMarket matrix coordinate real symmetric\n2 2 2\n2 1 1\n1 2 1\n",
         "line 4: expected each edge once",
     ),
+    "a.mtx huge header": (
+        COORDINATE + "99999999999 99999999999 1\n1 2 1\n",
+        "expected at most 20000000 agents, got 999",
+    ),
+    "a.mtx huge array": (
+        "%%MatrixMarket matrix array real general\n9999999 9999999\n0\n",
+        "expected 99999980000001 numbers, as its header says, got 1",
+    ),
     "a.mtx short array": (
         "%%MatrixMarket matrix array real general\n2 2\n0\n1\n1\n",
         "expected 4 numbers, as its header says, got 3",
