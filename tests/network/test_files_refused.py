@@ -246,6 +246,7 @@ def test_a_damaged_sparse_matrix_does_not_reach_compiled_code(tmp_path: Path) ->
         read_graph_file(tmp_path / "a.npz", "hears")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "write"), [*MATRICES, *EDGES])
 def test_truncated_files_are_refused(tmp_path: Path, name: str, write: Callable[[Path], None]) -> None:
     """But for text that is cut in its last line, or is an edge list cut after one: that still is a graph."""
@@ -253,7 +254,7 @@ def test_truncated_files_are_refused(tmp_path: Path, name: str, write: Callable[
     data = (tmp_path / name).read_bytes()
     whole = read_graph_file(tmp_path / name, "hears").graph.to_digraph()
     last = data.rstrip().rfind(b"\n") if name in ("a.mtx", "a.csv") else len(data) - 1
-    for length in range(0, last, max(1, len(data) // 40)):
+    for length in range(0, last, max(1, len(data) // (3 if name == "a.mat" else 40))):
         (tmp_path / name).write_bytes(data[:length])
         try:
             found = read_graph_file(tmp_path / name, "hears").graph.to_digraph()
