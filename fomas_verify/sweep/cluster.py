@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import logging
 import platform
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -15,7 +16,7 @@ from fomas_verify.sweep.errors import SweepError
 from fomas_verify.sweep.plan import Plan
 from fomas_verify.sweep.table import compute_part
 
-REACHED_WITHIN: Final = 5
+REACHED_WITHIN: Final = 4
 """Seconds that a scheduler has to answer, and then a first worker to be there."""
 
 AHEAD: Final = 3
@@ -85,18 +86,32 @@ def _client(address: str) -> Iterator[Any]:
             f"--scheduler needs {error.name}, which the extra `sweep` brings: pip install 'fomas_verify[sweep]'"
         ) from None
     logging.getLogger("distributed").setLevel(logging.CRITICAL)
-    connect: Any = distributed.Client
+    # Asked first, apart from the client, which waits for an answer for long when it is given up.
     try:
-        client = connect(address, timeout=REACHED_WITHIN, set_as_default=False)
+        identity = asyncio.run(asyncio.wait_for(_identity(address), REACHED_WITHIN))
     except Exception as error:  # whatever answers there, or does not: an unknown host, another protocol, a silent port
-        reason = " ".join(f"{type(error).__name__}: {error}".split())[:160]
+        silent, reason = isinstance(error, OSError | TimeoutError), " ".join(str(error).split())[:160]
+        reason = "nothing did" if silent else reason if isinstance(error, ValueError) else "what answers there is none"
         raise SweepError(
             f"--scheduler {address}: expected a Dask scheduler that answers within {REACHED_WITHIN} s: {reason}"
         ) from None
+    if identity.get("type") != "Scheduler":
+        raise SweepError(f"--scheduler {address}: expected a Dask scheduler, got a {identity.get('type')}")
+    connect: Any = distributed.Client
+    client = connect(address, timeout=REACHED_WITHIN, set_as_default=False)
     try:
         yield client
     finally:
         client.close(timeout=REACHED_WITHIN)
+
+
+async def _identity(address: str) -> Mapping[str, Any]:
+    from distributed import core
+
+    rpc: Any = core.rpc
+    async with rpc(address, timeout=REACHED_WITHIN) as scheduler:
+        found: Mapping[str, Any] = await scheduler.identity()
+        return found
 
 
 def _agree(client: Any, plan: Plan, address: str) -> None:

@@ -158,6 +158,7 @@ def _drawn(
 ) -> bytes:
     import matplotlib
     import numpy as np
+    from matplotlib.colors import ListedColormap
     from matplotlib.figure import Figure
     from matplotlib.patches import Patch
 
@@ -172,7 +173,9 @@ def _drawn(
         for i, (color, hatch) in enumerate(zip(COLORS, HATCHES, strict=True)):
             cells = np.ma.masked_where(kind != i, np.ones_like(kind))
             if cells.count():
-                plane.pcolor(*edges, cells, facecolor=color, hatch=hatch, edgecolor="#00000055", linewidth=0)
+                plane.pcolor(
+                    *edges, cells, cmap=ListedColormap([color]), hatch=hatch, edgecolor="#00000055", linewidth=0
+                )
         _write_shares(plane, counts, kind, edges)
         for axis, name, ends in ((plane.xaxis, axes[0], edges[0]), (plane.yaxis, axes[1], edges[1])):
             _label(axis, values[name], name, ends)
