@@ -16,7 +16,7 @@ PAPER := reports/paper
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 unexport PYTHONPATH PYTHONHOME
 
-.PHONY: help demo test check lint docs bench proofs reports debian lock clean
+.PHONY: help demo test check lint docs dist bench proofs reports debian lock clean
 
 help:  ## this list
 	@sed -nE 's/^([a-z]+):.*## (.*)/  make \1\t\2/p' Makefile | expand -t 16
@@ -42,6 +42,11 @@ lint: $(DEV)  ## format, lint, strict types, import contracts
 
 docs: $(DEV)  ## the documentation site, into site/; a warning is an error
 	@NO_MKDOCS_2_WARNING=1 mkdocs build --strict  # not --quiet: it would not count warnings
+
+dist: $(BASE)  ## wheel, sdist and bill of materials, into dist/; the same sources give the same bytes
+	@rm -rf dist
+	@python -m hatchling build
+	@python -m tools.sbom dist/*.whl
 
 bench: $(VENV)/bench.done  ## speed and memory as ratios, side by side in one run
 	python -m benchmarks
