@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from fomas_verify.checker import Malformed, Report, check
-from fomas_verify.cli.options import json_option
+from fomas_verify.cli.options import allow_outside_option, json_option, tell_notes
 from fomas_verify.cli.require import OWN, require_option
 from fomas_verify.exact.errors import FomasError
 
@@ -32,14 +32,17 @@ class CertificateError(FomasError):
 @click.argument("certificate", type=click.Path(path_type=Path), metavar="CERT.json")
 @click.option("--design", type=click.Path(path_type=Path), metavar="DESIGN", help="it must be about that design")
 @require_option
+@allow_outside_option
 @json_option
-def command(certificate: Path, design: Path | None, require: tuple[str, ...], *, as_json: bool) -> int:
+def command(
+    certificate: Path, design: Path | None, require: tuple[str, ...], *, allow_outside: bool, as_json: bool
+) -> int:
     """Check CERT.json with the independent checker: every value and every claim in it is decided anew.
 
     \b
     Example:  verify-design check certificate.json --design examples/paper.toml --require design
     """
-    meant = None if design is None else _read_design(design)
+    meant = None if design is None else _read_design(design, allow_outside=allow_outside)
     try:
         report = check(_read(certificate))
     except Malformed as error:
@@ -62,10 +65,12 @@ def _expanded(require: tuple[str, ...], report: Report) -> Iterator[str]:
         yield from report.design.require if name == OWN else (name,)
 
 
-def _read_design(path: Path) -> Design | UncertainDesign | SwitchedDesign:
+def _read_design(path: Path, *, allow_outside: bool) -> Design | UncertainDesign | SwitchedDesign:
     from fomas_verify.design import read_named
 
-    return read_named(path)
+    named = read_named(path, allow_outside=allow_outside)
+    tell_notes(named)
+    return named
 
 
 def differences(report: Report, meant: Design | UncertainDesign | SwitchedDesign) -> list[str]:
@@ -106,12 +111,9 @@ def _edges(named: Any, meant: Design | UncertainDesign | SwitchedDesign) -> dict
 
 
 def _plain(meant: Design | UncertainDesign | SwitchedDesign) -> Design:
-    """What the members of an uncertain design have in common; with the first digraph of several."""
-    from fomas_verify.design import SwitchedDesign, UncertainDesign
+    from fomas_verify.design import plain
 
-    if isinstance(meant, SwitchedDesign):
-        return meant.first
-    return meant.least if isinstance(meant, UncertainDesign) else meant
+    return plain(meant)
 
 
 @dataclass(frozen=True)

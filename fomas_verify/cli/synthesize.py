@@ -13,7 +13,7 @@ import click
 from fomas_verify.certificate.document import plain as in_json
 from fomas_verify.certificate.synthesis_document import synthesis_certificate_text
 from fomas_verify.checker import check
-from fomas_verify.cli.options import design_argument, json_option
+from fomas_verify.cli.options import allow_outside_option, design_argument, json_option, tell_notes
 from fomas_verify.design import Design, DesignError, parse_design, read_design
 from fomas_verify.enclosure.reference import DisagreementError
 from fomas_verify.prover import Proof, prove
@@ -63,6 +63,7 @@ NONE_EXISTS = 1
     "--weights", is_flag=True, help="choose the edge weights first, for the strongest contraction in one step"
 )
 @click.option("--symmetric", is_flag=True, help="with --weights: the same weight both ways")
+@allow_outside_option
 @json_option
 def command(
     design: Path,
@@ -73,6 +74,7 @@ def command(
     direct: bool,
     weights: bool,
     symmetric: bool,
+    allow_outside: bool,
     as_json: bool,
 ) -> int:
     """Find the best gamma and h under the limits of DESIGN, as a new design with its certificate.
@@ -88,7 +90,8 @@ def command(
         raise click.UsageError("--symmetric: expected with --weights only")
     if output is not None and output.suffix not in ("", ".toml"):
         raise DesignError(f"{output}: expected a folder or a name that ends in .toml")
-    named = read_design(design)
+    named = read_design(design, allow_outside=allow_outside)
+    tell_notes(named)
     chosen = _weights(named, symmetric=symmetric) if weights else None
     region = find_region(named if chosen is None else weighted_design(named, chosen))
     task = pose(region, Condition(condition), Objective(objective))
