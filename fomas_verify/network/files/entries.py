@@ -23,6 +23,7 @@ BOTH_WAYS: Final = "both-ways"
 ORIENTATIONS: Final = (FROM_TO, HEARS, BOTH_WAYS)
 
 ROUND_OFF: Final = Fraction(1, 10**12)
+MAX_AGENTS: Final = 1 << 22  # a header of one line must not ask for more memory than its file could fill
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,6 +64,8 @@ def assemble(entries: Entries, orientation: str, name: str) -> SparseDigraph:
 
     if entries.agents < 2:
         raise refused(name, "at least 2 agents", str(entries.agents))
+    if entries.agents > MAX_AGENTS:
+        raise refused(name, f"at most {MAX_AGENTS} agents", str(entries.agents))
     numerators, denominator = _numerators(entries, name)
     _refuse_outside(entries, name)
     signs = np.fromiter(((x > 0) - (x < 0) for x in numerators), np.int8, len(numerators))[entries.codes]

@@ -65,9 +65,10 @@ def _array(file: IO[bytes], agents: int, symmetric: bool, name: str) -> Entries:
     import numpy as np
 
     texts = file.read().split()
+    count = agents * (agents + 1) // 2 if symmetric else agents * agents
+    if len(texts) != count:
+        raise refused(name, f"{count} numbers, as its header says", f"{len(texts)}")
     rows, columns = _lower(agents) if symmetric else _full(agents)
-    if len(texts) != rows.size:
-        raise refused(name, f"{rows.size} numbers, as its header says", f"{len(texts)}")
     index: dict[bytes, int] = {}
     codes = np.fromiter((index.setdefault(text, len(index)) for text in texts), np.int64, len(texts))
     return Entries(
