@@ -32,6 +32,7 @@ def start(folder: Path, *arguments: str) -> tuple[Run, list[str]]:
 COMMANDS = {
     "prove": ["prove", "paper.toml", "-o", "certificate.json", "--horizon", "100"],
     "prove switching": ["prove", "switching.toml"],
+    "graph file": ["prove", "file.toml"],
     "kernel": ["kernel", "paper.toml"],
     "region": ["region", "limits.toml", "--solver", "lmi", "--plot", "region.svg"],
     "synthesize": ["synthesize", "limits.toml", "-o", "best"],
@@ -51,6 +52,11 @@ COMMANDS = {
 def designs(tmp_path: Path) -> Path:
     for path in (ROOT / "examples").glob("*.toml"):
         (tmp_path / path.name).write_bytes(path.read_bytes())
+    graph = ROOT / "tests" / "network" / "files" / "paper.graphml"
+    (tmp_path / graph.name).write_bytes(graph.read_bytes())
+    (tmp_path / "file.toml").write_text(
+        f'format = "fomas-design/1"\nalpha = 0.9\ngamma = 0.15\nh = 0.85\n[graph]\nfile = "{graph.name}"\n'
+    )
     return tmp_path
 
 
