@@ -14,6 +14,8 @@ from pathlib import Path
 
 FENCE = re.compile(r"^```(\w+)([^\n]*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
+HERE = Path(sys.executable).parent
+
 
 @dataclass(frozen=True)
 class Step:
@@ -35,9 +37,9 @@ def steps(page: str) -> Iterator[Step]:
                 yield Step(command, shown, is_file=False)
 
 
-def run(command: str, folder: Path, before: int) -> tuple[int, str]:
-    """Run a command by bash; ``before`` is the exit status that ``$?`` shows."""
-    path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
+def run(command: str, folder: Path, before: int, programs: Path = HERE) -> tuple[int, str]:
+    """Run a command by bash with the programs of an environment; ``before`` is the exit status that ``$?`` shows."""
+    path = f"{programs}{os.pathsep}{os.environ['PATH']}"
     done = subprocess.run(
         ["bash", "-c", f"(exit {before}); {command}"],
         cwd=folder,
@@ -54,6 +56,17 @@ def agrees(shown: str, printed: str) -> bool:
     """What is shown is what was printed, but for elisions and white space at ends."""
     lines = [r"(?:.*\n)*?" if line.strip() == "..." else re.escape(line.rstrip()) + r"\n" for line in _lines(shown)]
     return re.fullmatch("".join(lines), "".join(f"{line.rstrip()}\n" for line in _lines(printed))) is not None
+
+
+def follow(page: str, folder: Path, programs: Path = HERE) -> None:
+    """Do what a page says, and assert that what it shows is what happens."""
+    status = 0
+    for step in steps(page):
+        if step.is_file:
+            (folder / step.subject).write_text(step.text, "utf-8")
+            continue
+        status, printed = run(step.subject, folder, status, programs)
+        assert agrees(step.text, printed), f"$ {step.subject}\n{printed}"
 
 
 def _lines(text: str) -> list[str]:

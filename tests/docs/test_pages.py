@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.docs.console import agrees, run, steps
+from tests.docs.console import agrees, follow
 
 pytestmark = pytest.mark.slow
 
@@ -16,13 +16,7 @@ PAGES = {
 
 @pytest.mark.parametrize("name", PAGES)
 def test_a_page_is_what_happens(name: str, tmp_path: Path) -> None:
-    status = 0
-    for step in steps(PAGES[name].read_text("utf-8")):
-        if step.is_file:
-            (tmp_path / step.subject).write_text(step.text, "utf-8")
-            continue
-        status, printed = run(step.subject, tmp_path, status)
-        assert agrees(step.text, printed), f"$ {step.subject}\n{printed}"
+    follow(PAGES[name].read_text("utf-8"), tmp_path)
 
 
 def test_the_tutorial_and_the_how_to_pages_are_followed() -> None:

@@ -1,5 +1,6 @@
 """What is released: the same bytes from any folder, a bill of materials, and an sdist that installs and decides."""
 
+import contextlib
 import hashlib
 import json
 import os
@@ -10,11 +11,12 @@ import sys
 import tarfile
 import venv
 import zipfile
-from importlib.metadata import distribution
+from importlib.metadata import PackageNotFoundError, distribution
 from pathlib import Path
 
 import pytest
 
+from tests.docs.console import follow
 from tools.licences import is_compatible
 from tools.locks import asked_for, closure, locked, pins
 from tools.sbom import bill
@@ -96,25 +98,33 @@ def test_the_wheel_of_the_sdist_is_the_wheel(built: Path, unpacked: Path, tmp_pa
     assert digest(only(tmp_path, "*.whl")) == digest(only(built, "*.whl"))
 
 
-def copy_installed(name: str, site: Path) -> None:
+def put_installed(name: str, site: Path) -> None:
     """Put an installed package into another environment, file by file, so that nothing is fetched."""
     package = distribution(name)
     for file in package.files or []:
         if ".." not in file.parts and "__pycache__" not in file.parts:
             (site / file).parent.mkdir(parents=True, exist_ok=True)
-            shutil.copyfile(str(file.locate()), site / file)
+            try:
+                (site / file).hardlink_to(str(file.locate()))
+            except OSError:  # another file system
+                shutil.copyfile(str(file.locate()), site / file)
+
+
+def environment(home: Path, names: set[str]) -> Path:
+    """An environment with pip and these packages, as far as this Python has them, and nothing else; its programs."""
+    venv.create(home, with_pip=True)
+    for name in names:
+        with contextlib.suppress(PackageNotFoundError):  # for other Pythons or platforms
+            put_installed(name, only(home / "lib", "python3*") / "site-packages")
+    return home / "bin"
 
 
 def test_the_sdist_installs_into_an_empty_environment_and_decides(built: Path, unpacked: Path, tmp_path: Path) -> None:
     """With the locked build requirements and base dependencies only, by pip, without an index."""
-    home = tmp_path / "environment"
-    venv.create(home, with_pip=True)
-    python = home / "bin" / "python"
-    site = only(home / "lib", "python3*") / "site-packages"
-    names = [pin.name for pin in pins((ROOT / "requirements" / "base.txt").read_text("utf-8"))]
-    extras = set(asked_for()["report"])
-    for name in set(names) - (closure(extras, locked()) - closure(asked_for()["base"], locked())):
-        copy_installed(name, site)
+    names = {pin.name for pin in pins((ROOT / "requirements" / "base.txt").read_text("utf-8"))}
+    report, base = (closure(asked_for()[group], locked()) for group in ("report", "base"))
+    programs = environment(tmp_path / "environment", names - (report - base))
+    python = programs / "python"
 
     def run(*arguments: object) -> Run:
         return subprocess.run(list(map(str, arguments)), cwd=tmp_path, capture_output=True, text=True, check=False)
@@ -123,14 +133,34 @@ def test_the_sdist_installs_into_an_empty_environment_and_decides(built: Path, u
     done = run(python, "-m", "pip", "install", *options, only(built, "*.tar.gz"))
     assert done.returncode == 0, done.stderr
     where = run(python, "-c", "import fomas_verify; print(fomas_verify.__file__)")
-    assert Path(where.stdout.strip()).is_relative_to(site)
+    assert Path(where.stdout.strip()).is_relative_to(tmp_path / "environment")
     certificate = tmp_path / "certificate.json"
-    tool, design = home / "bin" / "verify-design", unpacked / "examples" / "paper.toml"
+    tool, design = programs / "verify-design", unpacked / "examples" / "paper.toml"
     done = run(tool, "prove", design, "-o", certificate)
     assert (done.returncode, "All 6 required claims are proved." in done.stdout) == (0, True), done.stderr
     assert run(tool, "check", certificate, "--require", "design").returncode == 0
     done = run(tool, "report", design)
     assert (done.returncode, "fomas_verify[report]" in done.stderr) == (2, True), "jinja2 should be missing here"
+
+
+def test_the_tutorial_runs_line_by_line_from_the_wheel_with_all_extras(built: Path, tmp_path: Path) -> None:
+    """pip resolves every extra to what the locks hold, without an index; then each line of the tutorial."""
+    groups = asked_for()
+    packages = set().union(*(closure(names, locked()) for names in groups.values()))
+    programs = environment(tmp_path / "environment", packages)
+    extras = ",".join(group for group in groups if group != "base")
+    wheel = f"fomas_verify[{extras}] @ {only(built, '*.whl').as_uri()}"
+    done = subprocess.run(
+        [programs / "python", "-m", "pip", "install", "--no-index", "--disable-pip-version-check", wheel],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    folder = tmp_path / "empty"
+    folder.mkdir()
+    follow((ROOT / "docs" / "tutorial.md").read_text("utf-8"), folder, programs)
 
 
 def test_the_bill_is_written_beside_the_wheel(built: Path, tmp_path: Path) -> None:
