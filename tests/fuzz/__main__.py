@@ -1,7 +1,8 @@
 """The fuzzer at any size: `python -m tests.fuzz --seconds 3600 [--target design] [--seed 1]`.
 
 Prints the figures of each target and exits 1 if an input ended in anything but a verdict or a one-line refusal, took
-more than 10 s or more than 1 GB. Such inputs stand in build/fuzz/failures; `--input FILE --target NAME` tries one again.
+more than 10 s or more than 1 GB. Such inputs stand in build/fuzz/failures; `--input FILE --target NAME` tries one
+again.
 """
 
 from __future__ import annotations

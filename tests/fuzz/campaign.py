@@ -9,6 +9,7 @@ import subprocess
 import sys
 import time
 from collections import Counter
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from .seeds import ROOT
@@ -18,6 +19,8 @@ WALL_SECONDS = 120
 """After which a worker that says nothing is ended; a processor's 10 s end it sooner, unless it sleeps."""
 
 ENDLESS = 10**9
+WORKER = ("-m", "tests.fuzz.worker")
+FAILURES = ROOT / "build" / "fuzz" / "failures"
 
 
 @dataclass
@@ -48,9 +51,8 @@ class Figures:
         """Keep an input under build/fuzz/failures and go on."""
         self.outcomes["failure"] += 1
         self.failures[index] = reason
-        folder = ROOT / "build" / "fuzz" / "failures"
-        folder.mkdir(parents=True, exist_ok=True)
-        stem = folder / f"{self.target}-{self.seed}-{index}"
+        FAILURES.mkdir(parents=True, exist_ok=True)
+        stem = FAILURES / f"{self.target}-{self.seed}-{index}"
         stem.with_suffix(".input").write_bytes(draw(self.target, self.seed, index))
         stem.with_suffix(".reason").write_text(f"{reason}\n", encoding="utf-8")
 
@@ -65,16 +67,7 @@ def campaign(target: str, seed: int, *, count: int = ENDLESS, seconds: float = E
 
 def _watch(figures: Figures, index: int, count: int, deadline: float) -> int:
     """Follow one worker to its end; the number of the first input that it did not try."""
-    command = [
-        sys.executable,
-        "-m",
-        "tests.fuzz.worker",
-        figures.target,
-        str(figures.seed),
-        str(index),
-        "1",
-        str(count),
-    ]
+    command = [sys.executable, *WORKER, figures.target, str(figures.seed), str(index), "1", str(count)]
     environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
     under_way: int | None = None
     reason = f"no word in {WALL_SECONDS} s"
@@ -105,7 +98,7 @@ def _watch(figures: Figures, index: int, count: int, deadline: float) -> int:
     return index
 
 
-def _lines(worker: subprocess.Popen[bytes]) -> object:
+def _lines(worker: subprocess.Popen[bytes]) -> Iterator[str]:
     """Its lines, until it ends or says nothing for `WALL_SECONDS`."""
     pending = b""
     while select.select([worker.stdout], [], [], WALL_SECONDS)[0]:

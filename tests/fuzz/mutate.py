@@ -5,9 +5,12 @@ Everything is drawn from the `Random` that is given, so that a seed and an index
 
 from __future__ import annotations
 
+import io
 import json
 import re
 import tomllib
+import zipfile
+import zlib
 from collections.abc import Callable
 from random import Random
 
@@ -55,11 +58,18 @@ WORDS = [
     *("path", "star", "torus", "grid", "hypercube", "complete", "cycle", "directed-cycle", "from-to", "hears"),
     *("design", "region", "synthesis", "claims", "values", "witness", "verdict", "statement", "id", "task", "tool"),
     *("proved", "refuted", "undecided", "inapplicable", "gain-bound", "memory-inequality", "average-consensus"),
+    *("grid", "from", "to", "steps", "<f8", "|O", "fortran_order", "descr", "coordinate", "symmetric", "pattern"),
     *("lower", "upper", "true", "false", "null", "lambda2", "sigma", "margins", "kappa", "rho", "bits", "members"),
 ]
 TEXTS = [
     *("", "\0", "\ud7ff", "\ufeff", "\u202e", "\x1b[2J", "\r\n", "\u2028", "é" * 30, "🜚", "a" * 5000, "]]>", "<&>\"'"),
     *("\\input{/etc/passwd}", "$$\\undefined", "%s%n", "{{7*7}}", "<script>", "|`_*#", "../../x", "\\end{document}"),
+    *(
+        '<!DOCTYPE a [<!ENTITY b "b">]>',
+        "&b;",
+        "<edge source='n0' target='n1'/>",
+        "%%MatrixMarket matrix array real general",
+    ),
     *(
         "{",
         "[",
@@ -93,6 +103,36 @@ def mutate(data: bytes, other: bytes, random: Random) -> bytes:
     for _ in range(random.choice((0, 1, 1, 2, 4)) if random.random() < 0.7 else 0):
         data = random.choice(EDITS)(data, other, random)
     return data[:LARGEST]
+
+
+def mutate_packed(data: bytes, other: bytes, random: Random) -> bytes:
+    """A file of arrays: its bytes edited, or what a zip archive or a compressed element of a .mat file holds."""
+    if data[:2] == b"PK" and random.random() < 0.8:
+        made = io.BytesIO()
+        with zipfile.ZipFile(io.BytesIO(data)) as old, zipfile.ZipFile(made, "w") as new:
+            names = old.namelist()
+            chosen = random.choice(names)
+            for name in names:
+                content = _packed_edit(old.read(name), random) if name == chosen else old.read(name)
+                other_name = name if random.random() < 0.97 else random.choice(("a.npy", "../x.npy", "A.txt"))
+                new.writestr(zipfile.ZipInfo(other_name), content, zipfile.ZIP_DEFLATED)
+        return made.getvalue()[:LARGEST]
+    if data[:6] == b"MATLAB" and data[128:129] == b"\x0f" and random.random() < 0.8:
+        inner = zlib.compress(_packed_edit(zlib.decompress(data[136:]), random))
+        return data[:132] + len(inner).to_bytes(4, "little") + inner
+    return _packed_edit(data, random)
+
+
+def _packed_edit(data: bytes, random: Random) -> bytes:
+    """Bits, words of 1 to 8 bytes, tokens of a header, moved parts."""
+    for _ in range(random.choice((1, 1, 2, 3))):
+        if random.random() < 0.5 and len(data) > 8:
+            place, width = random.randrange(len(data) - 8), random.choice((1, 2, 4, 8))
+            word = random.choice((0, 1, 2, 7, 255, 2**15, 2**31 - 1, 2**31, 2**32 - 1, 2**40, 2**63 - 1, 2**64 - 1))
+            data = data[:place] + (word % 256**width).to_bytes(width, "little") + data[place + width :]
+        else:
+            data = random.choice((_flip, _drop, _repeat, _cut, _number, _word, _bytes))(data, data, random)
+    return data
 
 
 def _flip(data: bytes, other: bytes, random: Random) -> bytes:

@@ -14,13 +14,13 @@ from fomas_verify.checker import Malformed, check
 from fomas_verify.design import Design, SwitchedDesign, UncertainDesign, read_named
 from fomas_verify.exact.errors import FomasError
 
-from .mutate import NUMBERS, TEXTS, mutate
-from .seeds import SMALL, seeds
+from .mutate import NUMBERS, TEXTS, mutate, mutate_packed
+from .seeds import SMALL, graph_seeds, seeds
 
 VERDICT, REFUSAL = "verdict", "refusal"
 LONGEST = 1000
 MOST_AGENTS = 12
-"""Agents up to which a design that was read is decided too; how long larger ones take is no matter of malformed input."""
+"""Agents up to which a design that was read is decided too."""
 
 MOST_SAMPLES = 10_000
 
@@ -28,7 +28,9 @@ MOST_SAMPLES = 10_000
 def draw(target: str, seed: int, index: int) -> bytes:
     """The input with this number."""
     random = Random(f"{target} {seed} {index}")
-    kind = "certificate" if target == "certificate" else "design"
+    if target == "graph":
+        return _graph(random)
+    kind = target if target in ("certificate", "grid") else "design"
     known = SMALL if target in ("prove", "report") else seeds(kind)
     data, other = random.choice(known), random.choice(known)
     if target == "report" and random.random() < 0.7:
@@ -43,6 +45,51 @@ def draw(target: str, seed: int, index: int) -> bytes:
             }
         ).encode()
     return data if random.random() < 0.02 else mutate(data, other, random)
+
+
+def _graph(random: Random) -> bytes:
+    """A graph file behind a line that holds its ending and orientation."""
+    ending, data = random.choice(graph_seeds())
+    other = random.choice(graph_seeds())[1]
+    data = (mutate_packed if ending in (".npz", ".mat") else mutate)(data, other, random)
+    ending = ending if random.random() < 0.97 else random.choice((".csv", ".mtx", ".mat", ".npz", ".graphml"))
+    return f"{ending} {random.choice(('hears', 'hears', 'from-to', 'both-ways', ''))}\n".encode() + data
+
+
+def fuzz_graph(data: bytes, folder: Path) -> str:
+    """Reading a graph file; the input's first line is the file's ending and the orientation."""
+    from fomas_verify.network import GraphError
+    from fomas_verify.network.files import read_graph_file
+
+    head, _, content = data.partition(b"\n")
+    ending, orientation = head.decode().split(" ")
+    file = folder / f"graph{ending}"
+    file.write_bytes(content)
+    try:
+        found = read_graph_file(file, orientation or None, name="graph")
+    except (GraphError, FomasError) as error:
+        return _one_line(str(error))
+    for remark in found.remarks:
+        _one_line(remark)
+    return VERDICT
+
+
+def fuzz_grid(data: bytes, folder: Path) -> str:
+    """Reading a grid, and its first design on each of the first graphs."""
+    from fomas_verify.sweep.grid import read_grid
+
+    file = folder / ("grid.json" if data.lstrip()[:1] == b"{" else "grid.toml")
+    file.write_bytes(data)
+    try:
+        grid = read_grid(file)
+    except FomasError as error:
+        return _refused(error, (2,))
+    for graph in range(min(3, len(grid.graphs))):
+        try:
+            grid.design_on(graph)
+        except FomasError as error:
+            _refused(error, (2,))
+    return VERDICT
 
 
 def fuzz_design(data: bytes, folder: Path) -> str:
@@ -155,6 +202,8 @@ def fuzz_report(data: bytes, folder: Path) -> str:
 
 TARGETS: dict[str, Callable[[bytes, Path], str]] = {
     "design": fuzz_design,
+    "graph": fuzz_graph,
+    "grid": fuzz_grid,
     "certificate": fuzz_certificate,
     "gate": fuzz_gate,
     "prove": fuzz_prove,

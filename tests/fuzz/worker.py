@@ -23,7 +23,7 @@ def main(target: str, seed: int, start: int, step: int, count: int) -> None:
     """Print a line `start INDEX`, and then `done INDEX OUTCOME SECONDS KILOBYTES [REASON]`, for each input."""
     run = TARGETS[target]
     with tempfile.TemporaryDirectory(prefix="fomas-fuzz-") as name:
-        run(b"alpha = 0.9", Path(name))  # what is imported late counts for no input
+        run(draw(target, seed, start), Path(name))  # what is imported late counts for no input
         _bound_memory()
         for index in range(start, start + step * count, step):
             print("start", index, flush=True)

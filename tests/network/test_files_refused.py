@@ -1,6 +1,7 @@
 """Graph files, networkx graphs and matrices that are refused, each in one line that says where and why."""
 
 import io
+import zlib
 from collections.abc import Callable
 from fractions import Fraction
 from pathlib import Path
@@ -247,7 +248,7 @@ def test_a_matlab_file_that_would_fill_memory(tmp_path: Path, monkeypatch: pytes
     )
     scipy.io.savemat(tmp_path / "a.mat", {"A": zeros if sparse else np.zeros((100, 100))}, do_compression=True)
     monkeypatch.setattr("fomas_verify.network.files.refusals.UNPACKED_BYTES", 1000)
-    monkeypatch.setattr("fomas_verify.network.files.matlab._PIECE", 1000)
+    monkeypatch.setattr("fomas_verify.network.files.matlab_elements._PIECE", 1000)
     with pytest.raises(GraphFileError, match=r"expected at most \d+ bytes unpacked, got more: save it as a sparse"):
         read_graph_file(tmp_path / "a.mat", "hears")
     monkeypatch.undo()
@@ -286,6 +287,33 @@ def test_a_damaged_sparse_matrix_does_not_reach_compiled_code(tmp_path: Path) ->
     )  # fmt: skip
     with pytest.raises(GraphFileError, match="damaged"):
         read_graph_file(tmp_path / "a.npz", "hears")
+
+
+@pytest.mark.parametrize("pointers", [[0, 999, 0], [0, -1, 0], [0, 1 << 25, 0]])
+def test_pointers_of_a_matrix_that_says_it_is_empty(tmp_path: Path, pointers: list[int]) -> None:
+    """scipy looks at them only where something is stored, and then walks along them."""
+    np.savez(tmp_path / "a.npz", format="csr", shape=[2, 2], data=[1.0, 1.0], indices=[1, 0], indptr=pointers)
+    with pytest.raises(GraphFileError, match="damaged"):
+        read_graph_file(tmp_path / "a.npz", "hears")
+
+
+@pytest.mark.parametrize("compressed", [False, True])
+@pytest.mark.parametrize("kind", [0, 8, 15, 19, 120, 0xFFFF])
+@pytest.mark.parametrize("sparse", [False, True])
+def test_numbers_of_an_unknown_type(tmp_path: Path, sparse: bool, kind: int, compressed: bool) -> None:
+    """scipy looks the type up beyond its table's end: the program ended by a signal."""
+    matrix = np.array([[0, 1.0, 2.0], [2.0, 0, 1.0], [1.0, 2.0, 0]])
+    scipy.io.savemat(tmp_path / "a.mat", {"A": scipy.sparse.csc_matrix(matrix) if sparse else matrix})
+    data = bytearray((tmp_path / "a.mat").read_bytes())
+    assert data[176:180] == (b"\x05\0\0\0" if sparse else b"\x09\0\0\0")
+    assert read_graph_file(tmp_path / "a.mat", "hears").graph.agents == 3
+    data[176:180] = kind.to_bytes(4, "little")
+    if compressed:
+        inner = zlib.compress(bytes(data[128:]))
+        data[128:] = (15).to_bytes(4, "little") + len(inner).to_bytes(4, "little") + inner
+    (tmp_path / "a.mat").write_bytes(data)
+    with pytest.raises(GraphFileError, match="damaged"):
+        read_graph_file(tmp_path / "a.mat", "hears")
 
 
 @pytest.mark.parametrize(("name", "write"), [*MATRICES, *EDGES])

@@ -2,23 +2,16 @@
 
 from __future__ import annotations
 
-import struct
-import zlib
-from collections.abc import Iterator
-from os import SEEK_CUR
 from pathlib import Path
 from typing import Final
 
 from fomas_verify.network.files.entries import Entries
+from fomas_verify.network.files.matlab_elements import must_be_sound, unpacked_sizes
 from fomas_verify.network.files.matrices import entries_of_matrix
 from fomas_verify.network.files.refusals import must_unpack_small, need_extra, reading, refused
 from fomas_verify.network.files.variables import choose
 
 EXPECTED: Final = "a MATLAB file"
-
-_HEADER: Final = 128
-_COMPRESSED: Final = 15
-_PIECE: Final = 1 << 20
 
 _CLASSES = ("double", "single", "logical", "sparse", *(f"{u}int{bits}" for u in ("", "u") for bits in (8, 16, 32, 64)))
 
@@ -29,7 +22,8 @@ def read(path: Path, name: str, variable: str | None = None) -> Entries:
     from scipy.io import loadmat, whosmat
 
     with reading(path, name, EXPECTED, EXPECTED):
-        must_unpack_small(path, name, _parts(path))
+        must_unpack_small(path, name, unpacked_sizes(path))
+        must_be_sound(path)
         try:
             found = {key: _other(shape, kind) for key, shape, kind in whosmat(path)}
         except NotImplementedError:
@@ -37,22 +31,6 @@ def read(path: Path, name: str, variable: str | None = None) -> Entries:
         chosen = choose(found, variable, name)
         matrix = loadmat(path, variable_names=[chosen], struct_as_record=True)[chosen]
     return entries_of_matrix(matrix, name)
-
-
-def _parts(path: Path) -> Iterator[int]:
-    """The sizes to which a file of version 5 to 7.2 unpacks, piece by piece; nothing where it is of another version."""
-    with path.open("rb") as file:
-        order = {b"IM": "<", b"MI": ">"}.get(file.read(_HEADER)[-2:])
-        while order is not None and len(tag := file.read(8)) == 8:
-            kind, size = struct.unpack(f"{order}II", tag)
-            if kind != _COMPRESSED:
-                yield size
-                file.seek(size + -size % 8, SEEK_CUR)
-                continue
-            unpack, data = zlib.decompressobj(), file.read(size)
-            while data and not unpack.eof:
-                yield len(unpack.decompress(data, _PIECE))
-                data = unpack.unconsumed_tail
 
 
 def _other(shape: tuple[int, ...], kind: str) -> str:
