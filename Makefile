@@ -16,7 +16,7 @@ PAPER := reports/paper
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 unexport PYTHONPATH PYTHONHOME
 
-.PHONY: help demo test check lint bench proofs reports debian lock clean
+.PHONY: help demo test check lint docs dist bench proofs reports debian lock clean
 
 help:  ## this list
 	@sed -nE 's/^([a-z]+):.*## (.*)/  make \1\t\2/p' Makefile | expand -t 16
@@ -27,7 +27,7 @@ demo: $(BASE)  ## the paper's design: decided, certified, checked, reported (rep
 	@verify-design check $(PAPER)/certificate.json --design examples/paper.toml
 	@verify-design report examples/paper.toml -o $(PAPER)
 
-test: debian lint  ## everything: lint, types, contracts, all tests, proofs
+test: debian lint docs  ## everything: lint, types, contracts, documentation, all tests, proofs
 	pytest -n 2
 	@$(MAKE) proofs
 
@@ -39,6 +39,14 @@ lint: $(DEV)  ## format, lint, strict types, import contracts
 	ruff check .
 	mypy
 	lint-imports --no-logo
+
+docs: $(DEV)  ## the documentation site, into site/; a warning is an error
+	@NO_MKDOCS_2_WARNING=1 mkdocs build --strict  # not --quiet: it would not count warnings
+
+dist: $(BASE)  ## wheel, sdist and bill of materials, into dist/; the same sources give the same bytes
+	@rm -rf dist
+	@python -m hatchling build
+	@python -m tools.sbom dist/*.whl
 
 bench: $(VENV)/bench.done  ## speed and memory as ratios, side by side in one run
 	python -m benchmarks
@@ -58,7 +66,7 @@ lock:  ## resolve requirements/*.txt anew (needs uv)
 	@tools/lock.sh
 
 clean:  ## remove what make made (not reports/)
-	rm -rf $(VENV) build dist htmlcov .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis .coverage*
+	rm -rf $(VENV) build dist site htmlcov .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis .coverage*
 	find fomas_verify tests benchmarks examples -name __pycache__ -type d -prune -exec rm -rf {} + 2>/dev/null || true
 	@if [ -f proofs/Makefile ]; then $(MAKE) -C proofs clean; fi
 

@@ -34,7 +34,8 @@ from fomas_verify.report.files import make_folder, write_all
 )
 @click.option(
     "-o", "--output", type=click.Path(path_type=Path), metavar="PATH",
-    help="write design and certificate: into a folder, or to NAME.toml and NAME.json",
+    help="write design and certificate: into a folder, or to NAME.toml and NAME.json; of NAME.design.toml, to "
+    "NAME.certificate.json",
 )  # fmt: skip
 @click.option("--direct", is_flag=True, help="do not ask cvxpy for a second opinion")
 @click.option(
@@ -89,7 +90,12 @@ def _write(output: Path | None, found: Synthesized) -> None:
         return
     task = found.answer.task
     if output.suffix == ".toml":
-        paths = output, output.with_suffix(".json")
+        # In a folder that the gate is given, *.design.json would be taken for a design.
+        design = output.name.endswith(".design.toml")
+        paths = (
+            output,
+            output.with_suffix("").with_suffix(".certificate.json") if design else output.with_suffix(".json"),
+        )
     else:
         make_folder(output)
         stem = f"{Path(task.design.source).name.split('.')[0]}-{task.objective}"

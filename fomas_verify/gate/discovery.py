@@ -2,8 +2,8 @@
 
 A file given by name always is one. In a folder, and below it, these are: ``*.design.toml``, ``*.design.json``, and
 .toml and .json files with top-level ``format = "fomas-design/1"``. One with both ``alpha`` and ``graph`` and no such
-mark is refused with the way to mark it, so that no design is passed over in silence. Links to folders and hidden
-folders are not entered.
+mark is refused with the way to mark it, so that no design is passed over in silence. A certificate is none, whatever
+its name: `gate -o` writes ``x.design.json`` of x.design.toml. Links to folders and hidden folders are not entered.
 """
 
 from __future__ import annotations
@@ -26,6 +26,7 @@ HOW_TO_MARK: Final = (
 
 _ENDINGS = (".toml", ".json")
 _NAMES = tuple(f".design{ending}" for ending in _ENDINGS)
+_CERTIFICATE = re.compile(rb"""(?:\xef\xbb\xbf)?\s*\{\s*"format"\s*:\s*"fomas-certificate/""")
 _KEYS = re.compile(r"""^\s*["']?alpha["']?\s*[=:].*graph|graph.*^\s*["']?alpha["']?\s*[=:]""", re.DOTALL | re.MULTILINE)
 
 Found = Path | Result | Skipped
@@ -81,9 +82,20 @@ def _look_through(folder: Path) -> Iterator[Found]:
             else:
                 yield from _look_through(path)
         elif entry.name.lower().endswith(_NAMES):
-            yield path
+            yield Skipped(source_name(path), "a certificate") if _is_certificate(path) else path
         elif entry.name.lower().endswith(_ENDINGS):
             yield _judge(path)
+
+
+def _is_certificate(path: Path) -> bool:
+    """Whether a file begins as a certificate does: no design can, since its format would be another."""
+    try:
+        if not stat.S_ISREG(path.stat().st_mode):
+            return False
+        with path.open("rb") as file:
+            return _CERTIFICATE.match(file.read(256)) is not None
+    except OSError:
+        return False
 
 
 def _judge(path: Path) -> Found:

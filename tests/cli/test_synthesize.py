@@ -199,6 +199,18 @@ def test_a_design_is_never_overwritten_but_the_same_answer_may_be_written_again(
     assert sorted(x.name for x in tmp_path.iterdir()) == ["out", "plant.toml"]
 
 
+def test_the_gate_takes_what_was_written_for_one_design(verify: Verify, tmp_path: Path) -> None:
+    """The certificate of NAME.design.toml has no name that the gate knows as a design's."""
+    path = design(tmp_path, "h = [0.85, 0.85]")
+    out = tmp_path / "designs"
+    out.mkdir()
+    assert verify("synthesize", path, "--direct", "-o", out / "best.design.toml").returncode == 0
+    assert sorted(x.name for x in out.iterdir()) == ["best.certificate.json", "best.design.toml"]
+    done = verify("gate", out)
+    assert done.returncode == 0, done.stdout
+    assert "\n1 design: 1 pass\n" in done.stdout
+
+
 @pytest.mark.parametrize("condition", ["repaired-closed-form", "as-stated", "gain-bound", "consensus"])
 @pytest.mark.parametrize("objective", ["fastest", "most-robust"])
 def test_the_other_strips(tmp_path: Path, capsys: pytest.CaptureFixture[str], condition: str, objective: str) -> None:

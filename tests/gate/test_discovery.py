@@ -43,6 +43,20 @@ def test_designs_by_name_and_by_mark(tmp_path: Path) -> None:
     )
 
 
+@pytest.mark.parametrize("space", ["", "\n  "])
+def test_a_certificate_is_no_design_whatever_its_name(tmp_path: Path, space: str) -> None:
+    """`gate -o` names certificates after their designs; a design cannot begin so."""
+    write(
+        tmp_path,
+        a__design__toml=DESIGN,
+        a__design__json=f'{{{space}"format": "fomas-certificate/1", "kind": "design"}}',
+    )
+    assert found(tmp_path) == (["a.design.toml"], [], ["a.design.json"])
+    assert why(tmp_path) == "a certificate"
+    write(tmp_path, a__design__json=f'{{"name": "format", {JSON[1:]}')
+    assert found(tmp_path) == (["a.design.json", "a.design.toml"], [], [])
+
+
 def test_a_file_given_by_name_is_a_design_whatever_it_is(tmp_path: Path) -> None:
     write(tmp_path, notes__txt="x", x__toml="", y__json="[]")
     paths = [tmp_path / name for name in ("y.json", "notes.txt", "x.toml", "missing")]

@@ -228,7 +228,7 @@ def test_a_file_that_matlab_wrote(tmp_path: Path) -> None:
         ("big_endian", "row 1, column 1: expected no self-loop, got one"),
         ("little_endian", "row 1, column 1: expected no self-loop, got one"),
         ("test_skip_variable", "row 76, column 76: expected no self-loop, got one"),
-        ("testmatrix_4.2c_SOL2", "expected a square matrix of numbers, got 'testmatrix' (1 x "),
+        ("testmatrix_4.2c_SOL2", "expected a square matrix of numbers, got 'testmatrix' (3 x 5 double)"),
         ("testsparsecomplex_7.4_GLNX86", "got 'testsparsecomplex' (3 x 5 sparse)"),
         ("test3dmatrix_7.1_GLNX86", "got 'test3dmatrix' (2 x 3 x "),
         ("testcell_7.4_GLNX86", "got 'testcell' (1 x "),

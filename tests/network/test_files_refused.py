@@ -1,6 +1,7 @@
 """Graph files, networkx graphs and matrices that are refused, each in one line that says where and why."""
 
 import io
+import zlib
 from collections.abc import Callable
 from fractions import Fraction
 from pathlib import Path
@@ -87,7 +88,7 @@ REFUSED = {
     ),
     "a.mtx huge header": (
         COORDINATE + "99999999999 99999999999 1\n1 2 1\n",
-        "expected at most 20000000 agents, got 999",
+        "expected at most 4194304 agents, got 999",
     ),
     "a.mtx huge array": (
         "%%MatrixMarket matrix array real general\n9999999 9999999\n0\n",
@@ -232,8 +233,50 @@ def test_nothing_in_an_archive_is_executed(tmp_path: Path) -> None:
 
 def test_an_archive_that_would_fill_memory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     np.savez_compressed(tmp_path / "a.npz", A=np.zeros((100, 100)))
-    monkeypatch.setattr("fomas_verify.network.files.npz.MAX_BYTES", 1000)
-    with pytest.raises(GraphFileError, match="expected at most 1000 bytes unpacked, got 80128"):
+    monkeypatch.setattr("fomas_verify.network.files.refusals.UNPACKED_BYTES", 1000)
+    with pytest.raises(GraphFileError, match=r"expected at most \d+ bytes unpacked, got more: save it as a sparse"):
+        read_graph_file(tmp_path / "a.npz", "hears")
+    np.savez(tmp_path / "a.npz", A=np.eye(100)[::-1])
+    assert read_graph_file(tmp_path / "a.npz", "hears").graph.agents == 100
+
+
+@pytest.mark.parametrize("sparse", [False, True])
+def test_a_matlab_file_that_would_fill_memory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, sparse: bool) -> None:
+    """What a sparse one holds is not known before it is unpacked."""
+    zeros = scipy.sparse.csc_matrix(
+        (np.zeros(20_000), (np.arange(20_000), np.zeros(20_000, dtype=int))), (20_000, 20_000)
+    )
+    scipy.io.savemat(tmp_path / "a.mat", {"A": zeros if sparse else np.zeros((100, 100))}, do_compression=True)
+    monkeypatch.setattr("fomas_verify.network.files.refusals.UNPACKED_BYTES", 1000)
+    monkeypatch.setattr("fomas_verify.network.files.matlab._PIECE", 1000)
+    with pytest.raises(GraphFileError, match=r"expected at most \d+ bytes unpacked, got more: save it as a sparse"):
+        read_graph_file(tmp_path / "a.mat", "hears")
+    monkeypatch.undo()
+    assert read_graph_file(tmp_path / "a.mat", "hears").graph.weights.size == 0
+    scipy.io.savemat(tmp_path / "a.mat", {"A": np.eye(100)[::-1]}, do_compression=False)
+    monkeypatch.setattr("fomas_verify.network.files.refusals.UNPACKED_BYTES", 1000)
+    assert read_graph_file(tmp_path / "a.mat", "hears").graph.agents == 100
+
+
+@pytest.mark.parametrize(
+    ("head", "refusal"),
+    [
+        ("coordinate real general\n1000000000 1000000000 2\n1 2 1\n2 1 1\n", "expected at most 4194304 agents"),
+        ("coordinate real general\n9223372036854775807 9223372036854775807 2\n1 2 1\n2 1 1\n", "expected"),
+        ("array real general\n1000000 1000000\n1\n2\n", "expected 1000000000000 numbers, as its header says, got 2"),
+        ("array real symmetric\n1000000 1000000\n1\n2\n", "expected 500000500000 numbers, as its header says, got 2"),
+    ],
+)
+def test_a_header_that_asks_for_memory(tmp_path: Path, head: str, refusal: str) -> None:
+    (tmp_path / "a.mtx").write_text(f"%%MatrixMarket matrix {head}")
+    with pytest.raises(GraphFileError, match=refusal):
+        read_graph_file(tmp_path / "a.mtx", "hears")
+
+
+def test_a_sparse_matrix_of_vast_shape(tmp_path: Path) -> None:
+    two = np.array([0, 1])
+    scipy.sparse.save_npz(tmp_path / "a.npz", scipy.sparse.coo_array((two + 1.0, (two, two[::-1])), (10**9, 10**9)))
+    with pytest.raises(GraphFileError, match="expected at most 4194304 agents, got 1000000000"):
         read_graph_file(tmp_path / "a.npz", "hears")
 
 
@@ -244,6 +287,33 @@ def test_a_damaged_sparse_matrix_does_not_reach_compiled_code(tmp_path: Path) ->
     )  # fmt: skip
     with pytest.raises(GraphFileError, match="damaged"):
         read_graph_file(tmp_path / "a.npz", "hears")
+
+
+@pytest.mark.parametrize("pointers", [[0, 999, 0], [0, -1, 0], [0, 1 << 25, 0]])
+def test_pointers_of_a_matrix_that_says_it_is_empty(tmp_path: Path, pointers: list[int]) -> None:
+    """scipy looks at them only where something is stored, and then walks along them."""
+    np.savez(tmp_path / "a.npz", format="csr", shape=[2, 2], data=[1.0, 1.0], indices=[1, 0], indptr=pointers)
+    with pytest.raises(GraphFileError, match="damaged"):
+        read_graph_file(tmp_path / "a.npz", "hears")
+
+
+@pytest.mark.parametrize("compressed", [False, True])
+@pytest.mark.parametrize("kind", [0, 8, 15, 19, 120, 0xFFFF])
+@pytest.mark.parametrize("sparse", [False, True])
+def test_numbers_of_an_unknown_type(tmp_path: Path, sparse: bool, kind: int, compressed: bool) -> None:
+    """scipy looks the type up beyond its table's end: the program ended by a signal."""
+    matrix = np.array([[0, 1.0, 2.0], [2.0, 0, 1.0], [1.0, 2.0, 0]])
+    scipy.io.savemat(tmp_path / "a.mat", {"A": scipy.sparse.csc_matrix(matrix) if sparse else matrix})
+    data = bytearray((tmp_path / "a.mat").read_bytes())
+    assert data[176:180] == (b"\x05\0\0\0" if sparse else b"\x09\0\0\0")
+    assert read_graph_file(tmp_path / "a.mat", "hears").graph.agents == 3
+    data[176:180] = kind.to_bytes(4, "little")
+    if compressed:
+        inner = zlib.compress(bytes(data[128:]))
+        data[128:] = (15).to_bytes(4, "little") + len(inner).to_bytes(4, "little") + inner
+    (tmp_path / "a.mat").write_bytes(data)
+    with pytest.raises(GraphFileError, match="damaged"):
+        read_graph_file(tmp_path / "a.mat", "hears")
 
 
 @pytest.mark.slow

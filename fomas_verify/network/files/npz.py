@@ -8,11 +8,10 @@ from zipfile import ZipFile
 
 from fomas_verify.network.files.entries import Entries
 from fomas_verify.network.files.matrices import entries_of_matrix
-from fomas_verify.network.files.refusals import need_extra, reading, refused
+from fomas_verify.network.files.refusals import must_unpack_small, need_extra, reading, refused
 from fomas_verify.network.files.variables import choose
 
 EXPECTED: Final = "a .npz file of numpy or scipy"
-MAX_BYTES: Final = 1 << 32
 
 _KIND = "a zip archive, as .npz is"
 
@@ -22,9 +21,7 @@ def read(path: Path, name: str, variable: str | None = None) -> Entries:
     need_extra("numpy", "scipy.sparse")
     with reading(path, name, EXPECTED, _KIND):
         with ZipFile(path) as archive:
-            size = sum(member.file_size for member in archive.infolist())
-        if size > MAX_BYTES:
-            raise refused(name, f"at most {MAX_BYTES} bytes unpacked", str(size))
+            must_unpack_small(path, name, (member.file_size for member in archive.infolist()))
         matrix = _matrix(path, name, variable)
     return entries_of_matrix(matrix, name)
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import stat
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from importlib import import_module
 from os import PathLike, fspath
@@ -19,6 +19,9 @@ from fomas_verify.exact.rational import excerpt
 from fomas_verify.network.digraph import GraphError
 
 _HEAD: Final = 256
+# What a compressed file may unpack to: so many bytes, or so many times its own size.
+UNPACKED_BYTES: Final = 1 << 27
+UNPACKED_TIMES: Final = 4
 # How files begin that are taken for one another.
 _BEGINNINGS: Final = (
     (b"%%MatrixMarket", "a Matrix Market file"),
@@ -72,6 +75,15 @@ def must_be_file(path: Path, name: str) -> None:
         raise refused(name, "a file", "no such file") from None
     except OSError as error:
         raise refused(name, "a readable file", (error.strerror or "an error of the system").lower()) from None
+
+
+def must_unpack_small(path: Path, name: str, sizes: Iterable[int]) -> None:
+    """Refuse a compressed file whose parts, added as they come, would fill memory: a megabyte may hold a thousand."""
+    limit, total = max(UNPACKED_BYTES, UNPACKED_TIMES * path.stat().st_size), 0
+    for size in sizes:
+        total += size
+        if total > limit:
+            raise refused(name, f"at most {limit} bytes unpacked", "more: save it as a sparse matrix, or uncompressed")
 
 
 def begins_like(path: Path) -> str:
