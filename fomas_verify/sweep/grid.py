@@ -75,6 +75,23 @@ class Grid:
             found[axis.name] = axis.values[i]
         return {axis.name: found[axis.name] for axis in self.axes}
 
+    def graph_keys(self, graph: int) -> GraphKeys:
+        """The table [graph] of this graph; where families are swept, without the size that is of no use to its own."""
+        given = self.base.get("graph", {})
+        keys = {**(given if isinstance(given, Mapping) else {}), **self.graphs[graph]}
+        if "family" in self.graph_axes:
+            keys.pop("agents" if keys["family"] in SHAPED_FAMILIES else "shape", None)
+        return keys
+
+    def graph_value(self, graph: int, name: str) -> str | int | None:
+        """What family, agents or shape is on this graph, "3x4" for a shape; None where it has none."""
+        keys = self.graph_keys(graph)
+        shape = keys.get("shape")
+        if name == "shape":
+            return None if shape is None else "x".join(map(str, shape))
+        value: str | int | None = prod(shape) if name == "agents" and shape is not None else keys.get(name)
+        return value
+
     def design_on(self, graph: int) -> Design:
         """The design on this graph with the first value of each swept number.
 
@@ -86,8 +103,7 @@ class Grid:
         first = {axis.name: axis.values[0] for axis in self.axes}
         mapping = {**self.base, **first}
         if self.graph_axes:
-            given = self.base.get("graph", {})
-            mapping["graph"] = {**(given if isinstance(given, Mapping) else {}), **self.graphs[graph]}
+            mapping["graph"] = self.graph_keys(graph)
         return design_from_mapping(mapping, self.source)
 
 

@@ -75,7 +75,7 @@ def prepare(
 def swept_values(plan: Plan) -> dict[str, list[str]]:
     """The values of each swept parameter as text, in the order of the rows; a family's sizes by their own names."""
     found: dict[str, list[str]] = {
-        name: list(dict.fromkeys(_graph_value(graph, name) for graph in plan.grid.graphs))
+        name: list(dict.fromkeys(_graph_value(plan, i, name) for i in range(len(plan.grid.graphs))))
         for name in plan.grid.graph_axes
     }
     for axis in plan.grid.axes:
@@ -83,9 +83,9 @@ def swept_values(plan: Plan) -> dict[str, list[str]]:
     return found
 
 
-def _graph_value(graph: Mapping[str, Any], name: str) -> str:
-    value = graph.get(name)
-    return "-" if value is None else "x".join(map(str, value)) if isinstance(value, tuple) else str(value)
+def _graph_value(plan: Plan, graph: int, name: str) -> str:
+    value = plan.grid.graph_value(graph, name)
+    return "-" if value is None else str(value)
 
 
 def _position(values: list[str], name: str, text: str) -> int:
@@ -137,7 +137,7 @@ def _indices(plan: Plan, values: Mapping[str, list[str]], name: str, rows: Any) 
 
     grid = plan.grid
     if name in grid.graph_axes:
-        of_graph = np.array([values[name].index(_graph_value(graph, name)) for graph in grid.graphs])
+        of_graph = np.array([values[name].index(_graph_value(plan, i, name)) for i in range(len(grid.graphs))])
         return of_graph[rows // grid.rows_of_a_graph]
     stride = 1
     for axis in reversed(grid.axes):
@@ -242,6 +242,6 @@ def _of_what(plan: Plan, values: Mapping[str, list[str]], axes: tuple[str, str],
     """What the other parameters are."""
     words = [f"{name} = {values[name][i]}" for name, i in fixed.items()]
     rest = [name for name in values if name not in (*axes, *fixed)]
-    words += [f"all {len(values[name])} {name}" for name in rest]
+    words += [f"every {name}" for name in rest]
     ending = "; mixed: share proved" if rest else ""
     return (", ".join(words) or f"{plan.grid.rows} designs") + ending

@@ -75,13 +75,7 @@ def _at_most(x: Fraction) -> float:
 
 
 def _parameters(plan: Plan, graph: int, numbers: Mapping[str, Fraction]) -> Row:
-    keys, given = plan.grid.graphs[graph], plan.grid.base.get("graph", {})
-    found: Row = {}
-    for name in plan.grid.graph_axes:
-        value = keys.get(name, given.get(name) if isinstance(given, Mapping) else None)
-        found[name] = "x".join(map(str, value)) if name == "shape" and value else value
-    if "agents" in found and found["agents"] is None and (shape := keys.get("shape")):
-        found["agents"] = shape[0] * shape[1]
+    found: Row = {name: plan.grid.graph_value(graph, name) for name in plan.grid.graph_axes}
     for name, x in numbers.items():
         found |= {name: nearest(x), f"{name}_exact": format_rational(x)}
     return found
