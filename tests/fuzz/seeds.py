@@ -11,7 +11,7 @@ ROOT = Path(__file__).resolve().parents[2]
 _SEEDS = {
     "design": ("examples/*.toml", "tests/corpus/malformed/designs/*.toml", "tests/corpus/malformed/designs/*.json"),
     "certificate": ("tests/corpus/*/certificates/*.json", "reports/*/certificate.json"),
-    "grid": ("examples/grid.toml",),
+    "grid": ("examples/sweeps/grid.toml",),
 }
 LARGEST_SEED = 40_000
 

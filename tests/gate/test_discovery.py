@@ -173,3 +173,9 @@ def test_a_name_that_is_no_text_is_quoted(tmp_path: Path) -> None:
     (entry,) = find_designs([tmp_path])
     assert isinstance(entry, Skipped)
     assert entry.source.isprintable()
+
+
+def test_a_grid_is_passed_over_and_named(tmp_path: Path) -> None:
+    write(tmp_path, x__toml=DESIGN + "[grid]\nh = [1, 2]\n")
+    assert found(tmp_path) == ([], [], ["x.toml"])
+    assert why(tmp_path) == "a grid for sweep"
