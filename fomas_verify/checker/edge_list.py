@@ -7,7 +7,6 @@ import hashlib
 import re
 from array import array
 from collections.abc import Callable, Iterator
-from fractions import Fraction
 from math import gcd, lcm
 from pathlib import Path
 from stat import S_ISREG
