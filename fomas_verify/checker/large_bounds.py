@@ -143,7 +143,7 @@ class Known:
         return min(crude, max(self._by_factor("sigma_upper", crude), _ZERO)) ** 2
 
     def _of_directed_cycle(self, bits: int) -> Enclosure:
-        """The larger of 1 - 2 mu (1 - mu) x at x = lambda2 and x = lambda_max: the squares of P are that, linear in x."""
+        """The larger of 1 - 2 mu (1 - mu) x at x = lambda2 and at x = lambda_max: it is linear in x."""
         mu = self.mu(bits)
         ends = []
         for x in (self.lambda2(bits), self.lambda_max(bits)):
