@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -10,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from fomas_verify.checker import Malformed, Report, check
+from fomas_verify.checker import Malformed, Report, beside, check
 from fomas_verify.cli.options import json_option
 from fomas_verify.cli.require import OWN, require_option
 from fomas_verify.exact.errors import FomasError
@@ -18,6 +19,7 @@ from fomas_verify.exact.errors import FomasError
 if TYPE_CHECKING:
     from fomas_verify.checker.report import Shortfall
     from fomas_verify.design import Design, SwitchedDesign, UncertainDesign
+    from fomas_verify.numeric import Redo
 
 LARGEST = 64 << 20
 FALSE, UNDECIDED = 1, 3
@@ -32,8 +34,11 @@ class CertificateError(FomasError):
 @click.argument("certificate", type=click.Path(path_type=Path), metavar="CERT.json")
 @click.option("--design", type=click.Path(path_type=Path), metavar="DESIGN", help="it must be about that design")
 @require_option
+@click.option("--numeric", is_flag=True, help="redo what takes a sparse factor, with scipy and qdldl")
 @json_option
-def command(certificate: Path, design: Path | None, require: tuple[str, ...], *, as_json: bool) -> int:
+def command(
+    certificate: Path, design: Path | None, require: tuple[str, ...], *, numeric: bool, as_json: bool
+) -> int:
     """Check CERT.json with the independent checker: every value and every claim in it is decided anew.
 
     \b
@@ -41,12 +46,24 @@ def command(certificate: Path, design: Path | None, require: tuple[str, ...], *,
     """
     meant = None if design is None else _read_design(design)
     try:
-        report = check(_read(certificate))
+        report = check(_read(certificate), opener=beside(certificate), numeric=_redo() if numeric else None)
     except Malformed as error:
         raise CertificateError(f"{certificate}: {error}") from None
     answer = _Answer(report, meant, tuple(dict.fromkeys(_expanded(require, report))))
     click.echo(json.dumps(answer.record(), indent=2) if as_json else "\n".join(answer.lines()))
     return answer.status
+
+
+def _redo() -> Redo:
+    """What redoes bounds that take a factor, in half of the machine's memory."""
+    from importlib.util import find_spec
+
+    from fomas_verify.numeric import SCALE, Redo
+
+    missing = [name for name in SCALE if find_spec(name) is None]
+    if missing:
+        raise CertificateError(f"--numeric needs {', '.join(missing)}: pip install 'fomas_verify[scale]'")
+    return Redo(os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") // 2 if hasattr(os, "sysconf") else 4 << 30)
 
 
 def _read(certificate: Path) -> bytes:
