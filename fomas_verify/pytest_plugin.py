@@ -1,6 +1,7 @@
 """pytest: ``@pytest.mark.design("plant.toml", require=[...])`` fails a test whose design the gate would not pass.
 
-The path is relative to the test's own file; without `require` the design's own claims are required.
+The path is relative to the test's own file; without `require` the design's own claims are required, and with
+`allow_outside=True` its graph file may lie outside its folder.
 """
 
 from __future__ import annotations
@@ -11,8 +12,9 @@ from typing import Final
 import pytest
 
 MARKER: Final = (
-    "design(path, require=None): the design at this path, relative to the test file, must pass `verify-design gate`; "
-    "require: claim ids, in place of the design's own"
+    "design(path, require=None, allow_outside=False): the design at this path, relative to the test file, must pass "
+    "`verify-design gate`; require: claim ids, in place of the design's own; allow_outside: its graph file may lie "
+    "outside its folder"
 )
 
 
@@ -37,8 +39,9 @@ def _shortfalls(item: pytest.Item, mark: pytest.Mark) -> Iterator[str]:
     if complaint:
         yield f"pytest.mark.design: {complaint}"
         return
-    required = mark.kwargs.get("require")
-    options = Options() if required is None else Options(require=tuple(dict.fromkeys(required)))
+    required, outside = mark.kwargs.get("require"), mark.kwargs.get("allow_outside", False)
+    claims = Options().require if required is None else tuple(dict.fromkeys(required))
+    options = Options(require=claims, allow_outside=outside)
     result = decide(item.path.parent / mark.args[0], options)
     if result.findings:
         yield result_line(result)
@@ -50,8 +53,8 @@ def _complaint(mark: pytest.Mark) -> str:
     from fomas_verify.gate.deciding import OWN
 
     required = mark.kwargs.get("require")
-    if len(mark.args) != 1 or set(mark.kwargs) - {"require"}:
-        return "expected one path and perhaps require=[...]"
+    if len(mark.args) != 1 or set(mark.kwargs) - {"require", "allow_outside"}:
+        return "expected one path and perhaps require=[...] and allow_outside=True"
     if required is None:
         return ""
     if not isinstance(required, list | tuple) or not required:

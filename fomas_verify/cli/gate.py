@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 
 import click
 
-from fomas_verify.cli.options import json_option
+from fomas_verify.cli.options import allow_outside_option, json_option
 from fomas_verify.cli.require import OWN, require_option
 from fomas_verify.report.files import OutputError, make_folder, write_whole
 
@@ -61,6 +61,7 @@ class NamedPath(click.Path):
 @click.option("--loss", default="10%", show_default=True, callback=share, metavar="SHARE", help="that it may lose")
 @click.option("--new-ok", is_flag=True, help="with --baseline: designs may pass of which it holds no certificate")
 @click.option("--cache", type=FILE, metavar="DIR", help="reuse certificates, each checked again")
+@allow_outside_option
 @click.option("-q", "--quiet", is_flag=True, help="print only what does not pass")
 def command(
     paths: tuple[Path, ...],
@@ -76,6 +77,7 @@ def command(
     *,
     as_json: bool,
     new_ok: bool,
+    allow_outside: bool,
     quiet: bool,
 ) -> int:
     """Decide every design among files and folders, check each certificate, and answer with one exit status.
@@ -103,7 +105,8 @@ def command(
     for folder in (output, cache):
         if folder is not None:
             make_folder(folder)
-    options = Options(require or (OWN,), baseline is not None or output is not None, cache, baseline, loss, new_ok)
+    margins = baseline is not None or output is not None
+    options = Options(require or (OWN,), margins, cache, baseline, loss, new_ok, allow_outside)
     teller = _Teller(sum(isinstance(x, Path) for x in found), quiet=quiet, silent=as_json, output=output, cache=cache)
     with _ended_by_sigterm():
         answer = run_gate(found, options, jobs or _processors(), teller.tell)

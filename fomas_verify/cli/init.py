@@ -26,7 +26,7 @@ h      = 0.85       # sampling period in seconds
 # horizon   = 1000                   # check inequality (14) also sample by sample, k = 0..horizon
 # settle_to = "1/100"                # when the agents count as settled
 
-[graph]             # one of: adjacency; edges with agents; family
+[graph]             # one of: adjacency; edges with agents; file; family
 adjacency = [       # a_ij, the weight with which agent i hears agent j
     [0, 0, 0, 1, 1],
     [1, 0, 1, 0, 0],
@@ -36,6 +36,7 @@ adjacency = [       # a_ij, the weight with which agent i hears agent j
 ]
 # agents = 5
 # edges  = [[4, 1], [5, 1], [1, 2, "1/2"]]   # [from, to] or [from, to, weight]: `to` hears `from`; agents count from 1
+# file   = "network.graphml"                 # or .edgelist; or .csv, .mtx, .npz, .mat with orientation = "hears"
 # family = "directed-cycle"                  # or cycle, path, star, complete, hypercube; torus, grid: shape = [3, 4]
 
 [gate]              # what `verify-design gate` asks for; without this table the first six

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import click
 
-from fomas_verify.cli.options import design_argument, digits_option, json_option
+from fomas_verify.cli.options import allow_outside_option, design_argument, digits_option, json_option
 from fomas_verify.design import read_design
 from fomas_verify.enclosure.digits import decimal
 from fomas_verify.enclosure.interval import Interval
@@ -25,9 +25,17 @@ HEADER = ("j", "f", "c", "partial_sum", "r")
 @click.option("--at", "at", metavar="J1,J2", help="these j instead, or besides")
 @digits_option
 @click.option("--csv", "csv_file", type=click.Path(path_type=Path), metavar="FILE", help="write the rows to a CSV file")
+@allow_outside_option
 @json_option
 def command(
-    design: Path, terms: int | None, at: str | None, digits: int, csv_file: Path | None, *, as_json: bool
+    design: Path,
+    terms: int | None,
+    at: str | None,
+    digits: int,
+    csv_file: Path | None,
+    *,
+    allow_outside: bool,
+    as_json: bool,
 ) -> int:
     """Print f(j), c_j, the partial sums of abs f and the resolvent r_j for the order alpha of DESIGN.
 
@@ -38,7 +46,8 @@ def command(
     """
     chosen = _indices(at) if at is not None else []
     indices = sorted({*range(1, (terms or (0 if chosen else 10)) + 1), *chosen})
-    rows = [_cells(row, digits) for row in kernel_rows(read_design(design).alpha, indices, digits)]
+    alpha = read_design(design, allow_outside=allow_outside).alpha
+    rows = [_cells(row, digits) for row in kernel_rows(alpha, indices, digits)]
     if csv_file is not None:
         from fomas_verify.report.files import write_whole
 

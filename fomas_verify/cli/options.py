@@ -3,11 +3,26 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
+
+if TYPE_CHECKING:
+    from fomas_verify.design import Design, SwitchedDesign, UncertainDesign
 
 design_argument = click.argument("design", type=click.Path(path_type=Path), metavar="DESIGN")
 digits_option = click.option(
     "--digits", type=click.IntRange(20, 10_000), default=50, show_default=True, help="significant digits of the values"
 )
+allow_outside_option = click.option(
+    "--allow-outside", is_flag=True, help="a graph file may lie outside the folder of its design"
+)
 json_option = click.option("--json", "as_json", is_flag=True, help="print JSON in place of the table")
+
+
+def tell_notes(named: Design | UncertainDesign | SwitchedDesign) -> None:
+    """Say on standard error what the user must know about the reading of a design, where the output does not."""
+    from fomas_verify.design import plain
+
+    for note in plain(named).notes:
+        click.echo(f"note: {note}", err=True)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from fomas_verify.cli.options import design_argument, digits_option
+from fomas_verify.cli.options import allow_outside_option, design_argument, digits_option, tell_notes
 from fomas_verify.design import Design, DesignError, SwitchedDesign, UncertainDesign, read_named
 from fomas_verify.prover import Proof, UncertainProof, prove, prove_uncertain
 
@@ -21,21 +21,31 @@ if TYPE_CHECKING:
 @click.option("--horizon", type=click.IntRange(0, 10**9), metavar="K", help="also check (14) term by term, k = 0..K")
 @click.option("--coq", type=click.Path(path_type=Path), metavar="DIR", help="write the proof as a Coq file into DIR")
 @digits_option
+@allow_outside_option
 @click.option("--json", "as_json", is_flag=True, help="print the certificate in place of the table")
 def command(
-    design: Path, output: Path | None, horizon: int | None, coq: Path | None, digits: int, *, as_json: bool
+    design: Path,
+    output: Path | None,
+    horizon: int | None,
+    coq: Path | None,
+    digits: int,
+    *,
+    allow_outside: bool,
+    as_json: bool,
 ) -> int:
     """Decide every claim about DESIGN, print the verdicts and write the certificate.
 
     \b
     Example:  verify-design prove examples/paper.toml -o certificate.json --horizon 1000
     """
-    proof = _prove(read_named(design), horizon, digits, coq)
+    named = read_named(design, allow_outside=allow_outside)
+    proof = _prove(named, horizon, digits, coq)
     if output is not None:
         from fomas_verify.report.files import write_whole
 
         write_whole(output, proof.certificate().encode())
     if as_json:
+        tell_notes(named)
         click.echo(proof.certificate(), nl=False)
     else:
         click.echo(_text(proof))

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from fomas_verify.cli.options import design_argument, json_option
+from fomas_verify.cli.options import allow_outside_option, design_argument, json_option, tell_notes
 from fomas_verify.design import DesignError, Limits, SwitchedDesign, UncertainDesign, read_named
 from fomas_verify.region import Region, certificate, find_region, record, region_text
 from fomas_verify.report.files import write_whole
@@ -30,8 +30,11 @@ FORMATS = ("pdf", "png", "svg")
     show_default=True,
     help="lmi: hold what was found against the LMI, solved by clarabel",
 )
+@allow_outside_option
 @json_option
-def command(design: Path, output: Path | None, plot: Path | None, solver: str, *, as_json: bool) -> int:
+def command(
+    design: Path, output: Path | None, plot: Path | None, solver: str, *, allow_outside: bool, as_json: bool
+) -> int:
     """Print on which mu, and so on which (gamma, h), each condition holds, every end of it certified.
 
     DESIGN needs no gamma and no h. With h the table shows the gamma that go with it, with gamma alone the h; with a
@@ -41,7 +44,8 @@ def command(design: Path, output: Path | None, plot: Path | None, solver: str, *
     Example:  verify-design region examples/paper.toml -o region.json
     """
     file_format = None if plot is None else _format(plot)
-    named = read_named(design)
+    named = read_named(design, allow_outside=allow_outside)
+    tell_notes(named)
     if isinstance(named, UncertainDesign):
         where = next(iter(named.ranges))
         only = "only prove, check and gate take one"

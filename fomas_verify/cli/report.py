@@ -7,7 +7,7 @@ from pathlib import Path
 
 import click
 
-from fomas_verify.cli.options import digits_option
+from fomas_verify.cli.options import allow_outside_option, digits_option, tell_notes
 from fomas_verify.design import read_design
 from fomas_verify.prover import prove
 
@@ -26,7 +26,17 @@ MOST_COMPARED = 4
 @click.option("--brief", is_flag=True, help="one page")
 @click.option("--theorem", is_flag=True, help="the corrected theorem and the counterexample, as a LaTeX fragment")
 @digits_option
-def command(designs: tuple[Path, ...], output: Path, form: str, digits: int, *, brief: bool, theorem: bool) -> int:
+@allow_outside_option
+def command(
+    designs: tuple[Path, ...],
+    output: Path,
+    form: str,
+    digits: int,
+    *,
+    brief: bool,
+    theorem: bool,
+    allow_outside: bool,
+) -> int:
     """Write the report of DESIGN into DIR, or the comparison of several, and its PDF where a LaTeX is at hand.
 
     \b
@@ -41,7 +51,11 @@ def command(designs: tuple[Path, ...], output: Path, form: str, digits: int, *, 
     parts += ["--brief"] if brief else []
     parts += ["--theorem"] if theorem else []
     parts += ["--digits", str(digits)] if digits != 50 else []
-    proofs = [prove(read_design(design), digits=digits) for design in designs]
+    parts += ["--allow-outside"] if allow_outside else []
+    named = [read_design(design, allow_outside=allow_outside) for design in designs]
+    for design in named:
+        tell_notes(design)
+    proofs = [prove(design, digits=digits) for design in named]
     written = "theorem" if theorem else form
     files = write_report(proofs, output, command=shlex.join(parts), form=written, brief=brief)
     for line in files.lines():

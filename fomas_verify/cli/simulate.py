@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import click
 
 from fomas_verify.cli.certified import Certified, certified_of
-from fomas_verify.cli.options import design_argument, json_option
+from fomas_verify.cli.options import allow_outside_option, design_argument, json_option
 from fomas_verify.cli.simulate_exactly import DIGITS, Beyond, enclosed, progress_bar, to_digits
 from fomas_verify.design import Design, DesignError, read_design
 from fomas_verify.enclosure.digits import decimal
@@ -73,6 +73,7 @@ def order(_: click.Context, __: click.Parameter, value: str | None) -> Fraction 
 @click.option("--enclose", is_flag=True, help="lower and upper ends of each number, rigorous, in the CSV file")
 @click.option("--csv", "csv_file", type=FILE, metavar="FILE", help="write the samples to a CSV file")
 @click.option("--parquet", type=FILE, metavar="FILE", help="write them to a Parquet file")
+@allow_outside_option
 @json_option
 @click.option("--plot", type=FILE, metavar="DIR", help="draw the paper's figures and two more into DIR")
 @click.option(
@@ -93,6 +94,7 @@ def command(
     file_format: str,
     *,
     enclose: bool,
+    allow_outside: bool,
     as_json: bool,
 ) -> int:
     """Simulate the closed loop of DESIGN: the exact sampled plant under one controller or several.
@@ -105,7 +107,7 @@ def command(
     Example:  verify-design simulate examples/paper.toml --samples 200 --csv loop.csv --plot figures
     """
     _must_go_together(names, memory, csv_file, parquet, digits, enclose=enclose)
-    read = read_design(design)
+    read = read_design(design, allow_outside=allow_outside)
     plant = _plant(read)
     points = max(between, POINTS_IN_FIGURES if plot is not None else 0)
     _must_fit(plant, samples, len(names), points, table=csv_file is not None or parquet is not None)

@@ -3,7 +3,7 @@
 from fomas_verify.design.claim_ids import CLAIM_IDS, DEFAULT_REQUIRE, SWITCHED_CLAIM_IDS
 from fomas_verify.design.errors import DesignError
 from fomas_verify.design.limits import Limits
-from fomas_verify.design.model import Design, SwitchedDesign, UncertainDesign
+from fomas_verify.design.model import Design, SwitchedDesign, UncertainDesign, plain
 from fomas_verify.design.reading import design_from_mapping, parse_design, read_any, read_design, read_named
 
 __all__ = [
@@ -17,6 +17,7 @@ __all__ = [
     "UncertainDesign",
     "design_from_mapping",
     "parse_design",
+    "plain",
     "read_any",
     "read_design",
     "read_named",

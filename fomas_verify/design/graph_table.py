@@ -1,4 +1,4 @@
-"""The table [graph]: exactly one of adjacency, edges and family.
+"""The table [graph]: exactly one of adjacency, edges, file and family.
 
 Notation: `adjacency[i][j]` is a_ij, agent i hears agent j; an edge `[from, to, weight]` says that `to` hears `from`.
 Agents count from 1.
@@ -11,45 +11,67 @@ from typing import Final
 
 from fomas_verify.design.errors import DesignError
 from fomas_verify.design.fields import Place, choice, count, number, one_of, positive, sequence, shown, table
+from fomas_verify.design.graph_file import Folder, read_file
 from fomas_verify.network import FAMILIES, SHAPED_FAMILIES, Digraph, Edge, GraphError, digraph, family
 
 MAX_AGENTS: Final = 10_000
 MAX_DENOMINATOR_BITS: Final = 256
 
-_FORMS = ("adjacency", "edges", "family")
-_UNSUPPORTED = ("file", "orientation")
+_FORMS = ("adjacency", "edges", "file", "family")
 # The keys that may stand beside each form.
-_COMPANIONS: dict[str, tuple[str, ...]] = {"adjacency": (), "edges": ("agents",), "family": ("agents", "shape")}
+_COMPANIONS: dict[str, tuple[str, ...]] = {
+    "adjacency": (),
+    "edges": ("agents",),
+    "file": ("orientation", "variable"),
+    "family": ("agents", "shape"),
+}
+_BESIDE = {
+    "agents": "edges or a family",
+    "shape": " or ".join(SHAPED_FAMILIES),
+    "orientation": "a file",
+    "variable": "a file",
+}
 _ONE = Fraction(1)
 
 
-def read_graph(value: object, place: Place) -> Digraph:
-    """Read the table [graph].
+def read_graph(value: object, place: Place, folder: Folder | None = None) -> tuple[Digraph, tuple[str, ...]]:
+    """Read the table [graph]; with what the user must know about the reading of its file, where it names one.
+
+    Parameters
+    ----------
+    value : object
+        The table.
+    place : Place
+        Where it stands.
+    folder : Folder, optional
+        Where its file may lie; a design that is no file has none.
 
     Raises
     ------
     DesignError
         It does not describe a digraph on 2 to 10,000 agents whose weights are positive and have a common denominator of
-        at most 256 bits; or it uses what is not supported yet.
+        at most 256 bits.
     """
-    graph = table(value, place, (*_FORMS, "agents", "shape", *_UNSUPPORTED))
-    for key in _UNSUPPORTED:
-        if key in graph:
-            raise place.key(key).unsupported("reading a graph from a file is")
+    graph = table(value, place, (*_FORMS, *_BESIDE))
     forms = [form for form in _FORMS if form in graph]
     if len(forms) != 1:
         got = " and ".join(forms) or "none of them"
         raise DesignError(f"{place}: expected exactly {one_of(_FORMS)}, got {got}")
     form = forms[0]
-    for key in ("agents", "shape"):
+    for key in _BESIDE:
         if key in graph and key not in _COMPANIONS[form]:
             raise DesignError(f"{place.key(key)}: expected only with {_beside(key)}, got it with {form}")
+    if form == "file":
+        read = read_file(graph, place, folder)
+        if read.graph.agents > MAX_AGENTS:
+            raise place.key("file").unsupported(f"{read.graph.agents} agents, more than {MAX_AGENTS}, are")
+        return read.graph.to_digraph(), read.remarks
     readers: dict[str, Callable[[Mapping[str, object], Place], Digraph]] = {
         "adjacency": _from_adjacency,
         "edges": _from_edges,
         "family": _from_family,
     }
-    return readers[form](graph, place)
+    return readers[form](graph, place), ()
 
 
 def _from_adjacency(graph: Mapping[str, object], place: Place) -> Digraph:
@@ -134,7 +156,7 @@ def _agents(value: object, place: Place) -> int:
 
 
 def _beside(key: str) -> str:
-    return {"agents": "edges or a family", "shape": " or ".join(SHAPED_FAMILIES)}[key]
+    return _BESIDE[key]
 
 
 class _Weights:

@@ -140,3 +140,10 @@ class SwitchedDesign:
     def with_graph(self, i: int) -> Design:
         """The design that keeps to one digraph."""
         return replace(self.first, graph=self.graphs[i])
+
+
+def plain(named: Design | UncertainDesign | SwitchedDesign) -> Design:
+    """What the members of an uncertain design have in common, and where each interval begins; the first graph."""
+    if isinstance(named, SwitchedDesign):
+        return named.first
+    return named.least if isinstance(named, UncertainDesign) else named

@@ -13,6 +13,7 @@ from fomas_verify.design.claim_ids import CLAIM_IDS, DEFAULT_REQUIRE, SWITCHED_C
 from fomas_verify.design.document import Format, format_of, parse_document, read_text, source_name
 from fomas_verify.design.errors import DesignError
 from fomas_verify.design.fields import Place, choice, count, number, positive, sequence, shown, table
+from fomas_verify.design.graph_file import Folder, folder_of
 from fomas_verify.design.graph_table import read_graph
 from fomas_verify.design.limits import NO_LIMITS, read_limits
 from fomas_verify.design.model import Design, State, SwitchedDesign, UncertainDesign
@@ -43,13 +44,15 @@ _NOT_SWITCHED = ("x0", "horizon", "settle_to", "limits")
 _ALPHA_LIMIT = 2**64
 
 
-def read_design(path: str | PathLike[str]) -> Design:
+def read_design(path: str | PathLike[str], *, allow_outside: bool = False) -> Design:
     """Read a design file, TOML or JSON by its extension, otherwise by its content.
 
     Parameters
     ----------
     path : path
         A regular file of at most 16 MiB in UTF-8.
+    allow_outside : bool
+        Whether its graph file may lie outside its folder.
 
     Returns
     -------
@@ -61,22 +64,20 @@ def read_design(path: str | PathLike[str]) -> Design:
     DesignError
         With one line that names the file, the key and what was expected.
     """
-    text = read_text(path)
-    return parse_design(text, format_of(path, text), source_name(path))
+    return _certain(read_named(path, allow_outside=allow_outside), source_name(path))
 
 
-def read_any(path: str | PathLike[str]) -> Design | UncertainDesign:
+def read_any(path: str | PathLike[str], *, allow_outside: bool = False) -> Design | UncertainDesign:
     """Read a design file in which alpha, gamma, mu and h may be intervals; otherwise as `read_design`."""
-    text = read_text(path)
-    source = source_name(path)
-    return any_from_mapping(parse_document(text, format_of(path, text), source), source)
+    return _one_graph(read_named(path, allow_outside=allow_outside), source_name(path))
 
 
-def read_named(path: str | PathLike[str]) -> Design | UncertainDesign | SwitchedDesign:
+def read_named(path: str | PathLike[str], *, allow_outside: bool = False) -> Design | UncertainDesign | SwitchedDesign:
     """Read a design file that may have [[graphs]] in place of [graph]; otherwise as `read_any`."""
     text = read_text(path)
     source = source_name(path)
-    return named_from_mapping(parse_document(text, format_of(path, text), source), source)
+    mapping = parse_document(text, format_of(path, text), source)
+    return named_from_mapping(mapping, source, folder_of(path, allow_outside=allow_outside))
 
 
 def parse_design(text: str, format_: Format, source: str) -> Design:
@@ -111,16 +112,23 @@ def design_from_mapping(mapping: Mapping[str, object], source: str = "design") -
     >>> design_from_mapping({"alpha": "9/10", "mu": "0.1", "graph": graph}).mu
     Fraction(1, 10)
     """
-    found = any_from_mapping(mapping, source)
-    if isinstance(found, UncertainDesign):
-        where = Place(source).key(next(iter(found.ranges)))
-        raise DesignError(f"{where}: expected a number, got an interval: only prove, check and gate take one")
-    return found
+    return _certain(named_from_mapping(mapping, source), source)
 
 
 def any_from_mapping(mapping: Mapping[str, object], source: str = "design") -> Design | UncertainDesign:
     """Read a design in which alpha, gamma, mu and h may be intervals; otherwise as `design_from_mapping`."""
-    found = named_from_mapping(mapping, source)
+    return _one_graph(named_from_mapping(mapping, source), source)
+
+
+def _certain(found: Design | UncertainDesign | SwitchedDesign, source: str) -> Design:
+    one = _one_graph(found, source)
+    if isinstance(one, UncertainDesign):
+        where = Place(source).key(next(iter(one.ranges)))
+        raise DesignError(f"{where}: expected a number, got an interval: only prove, check and gate take one")
+    return one
+
+
+def _one_graph(found: Design | UncertainDesign | SwitchedDesign, source: str) -> Design | UncertainDesign:
     if isinstance(found, SwitchedDesign):
         where = Place(source).key("graphs")
         raise DesignError(f"{where}: expected one [graph]: only prove, check, region and gate take [[graphs]]")
@@ -128,9 +136,12 @@ def any_from_mapping(mapping: Mapping[str, object], source: str = "design") -> D
 
 
 def named_from_mapping(
-    mapping: Mapping[str, object], source: str = "design"
+    mapping: Mapping[str, object], source: str = "design", folder: Folder | None = None
 ) -> Design | UncertainDesign | SwitchedDesign:
-    """Read a design that may have graphs in place of graph; otherwise as `any_from_mapping`."""
+    """Read a design that may have graphs in place of graph, and whose graph file may lie in a folder.
+
+    Otherwise as `design_from_mapping`, intervals included.
+    """
     place = Place(source)
     top = table(mapping, place, _KEYS)
     if "format" in top:
@@ -144,7 +155,7 @@ def named_from_mapping(
     for key in ("horizon", "settle_to"):
         if ranges and key in top:
             raise place.key(key).unsupported(f"with an interval for {next(iter(ranges))} this key is")
-    graphs = _graphs(top, place, ranges)
+    graphs, remarks = _graphs(top, place, ranges, folder)
     graph = graphs[0]
     least = {key: x.lower for key, x in numbers.items()}
     design = Design(
@@ -160,19 +171,22 @@ def named_from_mapping(
         require=_require(top, place),
         limits=read_limits(top["limits"], place.key("limits")) if "limits" in top else NO_LIMITS,
         source=source,
-        notes=_notes(top),
+        notes=(*_notes(top), *remarks),
     )
     if "graphs" in top:
         return SwitchedDesign(design, graphs, numbers.get("mu"))
     return UncertainDesign(design, ranges) if ranges else design
 
 
-def _graphs(top: Mapping[str, object], place: Place, ranges: Mapping[str, Interval]) -> tuple[Digraph, ...]:
-    """The digraph, or the digraphs to switch among."""
+def _graphs(
+    top: Mapping[str, object], place: Place, ranges: Mapping[str, Interval], folder: Folder | None
+) -> tuple[tuple[Digraph, ...], tuple[str, ...]]:
+    """The digraph, or the digraphs to switch among, and the remarks on their reading."""
     if "graphs" not in top:
         if "graph" not in top:
             raise place.key("graph").expected("a table", None)
-        return (read_graph(top["graph"], place.key("graph")),)
+        graph, remarks = read_graph(top["graph"], place.key("graph"), folder)
+        return (graph,), tuple(f"graph: {remark}" for remark in remarks)
     where = place.key("graphs")
     if "graph" in top:
         raise DesignError(f"{where}: expected either graph or graphs, got both")
@@ -183,11 +197,12 @@ def _graphs(top: Mapping[str, object], place: Place, ranges: Mapping[str, Interv
     entries = sequence(top["graphs"], where, "a list of tables")
     if not 1 <= len(entries) <= MAX_GRAPHS:
         raise where.expected(f"1 to {MAX_GRAPHS} graphs", entries)
-    graphs = [read_graph(entry, where.item(i)) for i, entry in enumerate(entries)]
+    read = [read_graph(entry, where.item(i), folder) for i, entry in enumerate(entries)]
+    graphs = tuple(graph for graph, _ in read)
     for i, graph in enumerate(graphs):
         if graph.agents != graphs[0].agents:
             raise DesignError(f"{where.item(i)}: expected {graphs[0].agents} agents as before, got {graph.agents}")
-    return tuple(graphs)
+    return graphs, tuple(f"graphs[{i}]: {remark}" for i, (_, remarks) in enumerate(read) for remark in remarks)
 
 
 def _number_or_interval(value: object, place: Place, read: Callable[[object, Place], Fraction]) -> Interval:

@@ -17,7 +17,15 @@ from typing import Final
 from fomas_verify.certificate.document import design_object
 from fomas_verify.checker import Malformed, Report, check
 from fomas_verify.claims.verdict import Decision
-from fomas_verify.design import SWITCHED_CLAIM_IDS, Design, DesignError, SwitchedDesign, UncertainDesign, read_named
+from fomas_verify.design import (
+    SWITCHED_CLAIM_IDS,
+    Design,
+    DesignError,
+    SwitchedDesign,
+    UncertainDesign,
+    plain,
+    read_named,
+)
 from fomas_verify.design.document import format_of, read_text, source_name
 from fomas_verify.exact.errors import FomasError
 from fomas_verify.gate.baseline import shrunk_margins
@@ -69,6 +77,8 @@ class Options:
         The share of a baseline's margin that may be lost.
     new_ok : bool
         Whether a design passes of which the baseline holds no certificate.
+    allow_outside : bool
+        Whether a graph file may lie outside the folder of its design.
     """
 
     require: tuple[str, ...] = (OWN,)
@@ -77,6 +87,7 @@ class Options:
     baseline: Path | None = None
     loss: Fraction = Fraction(0)
     new_ok: bool = False
+    allow_outside: bool = False
 
 
 def decide(path: Path, options: Options) -> Result:
@@ -97,8 +108,9 @@ def decide(path: Path, options: Options) -> Result:
     source = source_name(path)
     answer = Result(source, str(path))
     try:
-        named = _requiring(read_named(path), options.require)
-        answer = replace(answer, name=_plain(named).name, required=_plain(named).require)
+        named = _requiring(read_named(path, allow_outside=options.allow_outside), options.require)
+        design = plain(named)
+        answer = replace(answer, name=design.name, required=design.require, note="; ".join(design.notes))
         return _decided(named, answer, options)
     except FomasError as error:
         message, status = str(error), error.exit_status
@@ -111,15 +123,8 @@ def decide(path: Path, options: Options) -> Result:
         return replace(answer, required=(), findings=(Finding(BROKEN, "", INTERNAL, words),))
 
 
-def _plain(named: Named) -> Design:
-    """What the members of an uncertain design have in common, and where each interval begins; the first graph."""
-    if isinstance(named, SwitchedDesign):
-        return named.first
-    return named.least if isinstance(named, UncertainDesign) else named
-
-
 def _requiring(named: Named, require: tuple[str, ...]) -> Named:
-    design = _plain(named)
+    design = plain(named)
     names = dict.fromkeys(name for word in require for name in (design.require if word == OWN else (word,)))
     if "trajectory-norm-bound" in names:
         design.needs("x0", command="trajectory-norm-bound")
@@ -135,7 +140,7 @@ def _requiring(named: Named, require: tuple[str, ...]) -> Named:
 def _decided(named: Named, answer: Result, options: Options) -> Result:
     former = ""
     if options.cache is not None:
-        answer = replace(answer, key=cache_key(named, _plain(named).horizon, margins=options.margins))
+        answer = replace(answer, key=cache_key(named, plain(named).horizon, margins=options.margins))
         former = recall(options.cache, answer.key)
     if former and _proves_all(former, named, answer.required):
         answer = replace(answer, certificate=former, cached=True)
@@ -149,7 +154,7 @@ def _decided(named: Named, answer: Result, options: Options) -> Result:
         if os.path.lexists(former_file):
             findings += shrunk_margins(former_file, answer.required, answer.certificate, options.loss)
         elif options.new_ok:
-            answer = replace(answer, note="new: no baseline")
+            answer = replace(answer, note="; ".join(filter(None, ("new: no baseline", answer.note))))
         else:
             reason = f"no certificate of {answer.name!r} in the baseline: a new design needs --new-ok, or {former_file}"
             findings.append(Finding(NEW, "", WRONG_INPUT, reason))
@@ -207,7 +212,7 @@ def _placed(path: Path, named: Named, findings: list[Finding]) -> Iterator[Findi
     if not findings:
         return
     text = _text(path)
-    gain = "mu" if _plain(named).mu is not None else "gamma"
+    gain = "mu" if plain(named).mu is not None else "gamma"
     graphs = "graphs" if isinstance(named, SwitchedDesign) else "graph"
     for finding in findings:
         graph = finding.rule in _ABOUT_THE_GRAPH or finding.outcome == "inapplicable"

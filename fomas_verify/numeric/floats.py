@@ -18,17 +18,31 @@ if TYPE_CHECKING:
 
 U = 2.0**-53
 SLACK = 1 + 2.0**-20
-"""Covers the rounding of the sums and products of nonnegative doubles, fewer than 2^26 one after another, in a bound."""
+"""Covers the rounding in a bound: sums and products of nonnegative doubles, fewer than 2^26 one after another."""
 
 
 class Network(Protocol):
     """A digraph as arrays: agent `targets[e]`, from 0, hears `sources[e]` with weight `weights[e]` / `denominator`."""
 
-    agents: int
-    sources: Any
-    targets: Any
-    weights: Sequence[int]
-    denominator: int
+    @property
+    def agents(self) -> int:
+        """N."""
+
+    @property
+    def sources(self) -> Any:
+        """From where each edge leads."""
+
+    @property
+    def targets(self) -> Any:
+        """Where to."""
+
+    @property
+    def weights(self) -> Sequence[int]:
+        """Positive integers."""
+
+    @property
+    def denominator(self) -> int:
+        """What the weights are divided by."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,7 +62,9 @@ class Symmetric:
 
         last = self.upper.indptr[1:] - 1
         stored = bool((np.diff(self.upper.indptr) > 0).all())
-        return stored and bool((self.upper.indices[last] == np.arange(len(last))).all() and np.isfinite(self.upper.data).all())
+        return stored and bool(
+            (self.upper.indices[last] == np.arange(len(last))).all() and np.isfinite(self.upper.data).all()
+        )
 
     def shifted(self, scale: float, shift: float) -> Symmetric:
         """scale times this (scale = 1 or -1), plus shift on the diagonal."""

@@ -1,7 +1,7 @@
 """Signs of eigenvalues from a factor whose product is multiplied out and compared: qdldl itself is not believed.
 
-With ``A + E = U D U^T``, U unit lower triangular, A has as many eigenvalues below ``-norm E`` as D has negative entries,
-at most, and the others above (Sylvester, Weyl). Source: docs/theory.md, section 14.
+With ``A + E = U D U^T``, U unit lower triangular, A has at most as many eigenvalues at or below ``-norm E`` as D has
+negative entries (Sylvester, Weyl). Source: docs/theory.md, section 14.
 """
 
 from __future__ import annotations

@@ -89,7 +89,9 @@ class Redo:
             return False if refuted is not None and refuted[0] is False else None
         return None
 
-    def _beyond(self, matrix: Symmetric, target: Fraction, room: float, *, up: bool) -> tuple[bool | None, float] | None:
+    def _beyond(
+        self, matrix: Symmetric, target: Fraction, room: float, *, up: bool
+    ) -> tuple[bool | None, float] | None:
         """What a factor at the target moved by `room` into the safe side shows, and its error."""
         shift = float(target) + room if up else float(target) - room
         moved = matrix.shifted(1.0, -shift) if up else matrix.shifted(-1.0, shift)
@@ -113,5 +115,3 @@ def _degree(network: Network) -> Fraction:
     for target, weight in zip(network.targets, network.weights, strict=True):
         heard[target] += weight
     return Fraction(max(heard), network.denominator)
-
-

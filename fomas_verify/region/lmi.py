@@ -14,7 +14,7 @@ from fractions import Fraction
 from typing import Any
 
 from fomas_verify.exact import matrix as exact
-from fomas_verify.exact.errors import FomasError
+from fomas_verify.exact.errors import MissingExtraError
 from fomas_verify.spectrum.loop import Loop
 
 TOLERANCES = (1e-11, 1e-9)
@@ -24,10 +24,6 @@ NEGLIGIBLE = 1e-7
 """The share of the dual matrix's largest eigenvalue below which an eigenvector is left out."""
 
 FloatPair = tuple[list[float], list[float]]
-
-
-class MissingExtraError(FomasError):
-    """cvxpy or clarabel is not installed; one line."""
 
 
 class Goal(StrEnum):

@@ -1,7 +1,5 @@
 """What is said where a library is not installed."""
 
-from fomas_verify.exact.errors import FomasError
+from fomas_verify.exact.errors import MissingExtraError
 
-
-class MissingExtraError(FomasError):
-    """A library of an extra is not installed."""
+__all__ = ["MissingExtraError"]

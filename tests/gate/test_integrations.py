@@ -234,7 +234,7 @@ def test_the_pytest_plugin(plant: Path) -> None:
         "missing.toml: expected a file, got no such file",
         "require: expected claim ids, got 'gain'",
         "require: expected a list of claim ids, got 'gain-bound'",
-        "expected one path and perhaps require=[...]",
+        "expected one path and perhaps require=[...] and allow_outside=True",
         "assert 1 == 2",
     ):
         assert words in done.stdout

@@ -22,12 +22,14 @@ from fomas_verify.checker.document import read_document
 from fomas_verify.cli.init import NAME, TEMPLATE
 from fomas_verify.design import DesignError
 from fomas_verify.design.document import Number, format_of, parse_document, read_text
+from fomas_verify.design.graph_file import Folder
 from fomas_verify.design.reading import named_from_mapping
 from tests.checker import switched
 from tests.checker.test_synthesis import AFTER, ALL, END, HASTE, ONE, START, TWO, best, feasible, impossible
 
 ROOT = Path(__file__).resolve().parents[2]
 CORPUS = ROOT / "tests" / "corpus"
+FILES = ROOT / "tests" / "network" / "files"
 DESIGN_SCHEMA = json.loads(files("fomas_verify.design").joinpath("design.schema.json").read_text())
 CERTIFICATE_SCHEMA = json.loads(files("fomas_verify.certificate").joinpath("certificate.schema.json").read_text())
 MUTANTS = 1000
@@ -44,6 +46,9 @@ UNSAYABLE_OF_DESIGNS = [
     r"agents: expected \d+, as the shape says",
     r"(agents|shape): .* agents, more than 10000, are not supported yet",
     r"graphs\[\d+\]: expected \d+ agents as before",
+    # what is in a file, and where it lies
+    r"file: expected a file in the folder of the design",
+    r"file: [^ ]+: expected a file, got no such file",
     # the value of a fraction in a string, and bits
     r"(alpha|settle_to)(\[[01]\])?: expected a number between 0 and 1, both excluded, got ('|\")",
     r"\[1\]: expected a number (above|at or above) ",
@@ -102,7 +107,7 @@ def design_refusal(document: object) -> str:
                 return value
 
     try:
-        named_from_mapping(written(document), "d")
+        named_from_mapping(written(document), "d", Folder(FILES))
     except DesignError as error:
         return str(error)
     return ""
@@ -174,6 +179,10 @@ MORE = [
         "limits": {"h": ["-0", "1/2"], "gamma": [Decimal("0.1"), 2], "u_max": 3, "settle_within": "1e2"},
     },
     {"alpha": "0.5", "graph": {"family": "path", "agents": 2}, "limits": {"h": [1, 1]}},
+    {"alpha": "0.5", "graph": {"file": "paper.graphml"}},
+    {"alpha": "0.5", "graph": {"file": "paper.graphml", "orientation": "hears"}},
+    {"alpha": "0.5", "graph": {"file": "./paper.csv", "orientation": "from-to"}},
+    {"alpha": "0.5", "mu": 1, "graphs": [{"file": "paper.graphml"}, {"file": "paper.csv", "orientation": "hears"}]},
 ]
 BASES = [*GOOD.values(), *MORE, tomllib.loads(TEMPLATE.format(name=NAME), parse_float=decimal)]
 
