@@ -53,10 +53,16 @@ class Redo:
         gain = float((mu[0] + mu[1]) / 2 * floats.unit)
         middle = Fraction(gain) / floats.unit
         apart = max(abs(middle - end) for end in mu)
-        near = bound - 2 * _degree(network) * apart
+        moved = 2 * _degree(network) * apart
+        near, far = bound - moved, bound + moved
         if near <= 0:
             return None
-        return self._decide(floats.deviation(gain), 1 - near**2, up=True)
+        matrix = floats.deviation(gain)
+        found = self._decide(matrix, 1 - near**2, up=True)
+        if found is False and moved > 0:
+            # sigma at the middle is beyond `near`; the bound is false only if it is beyond `far`.
+            found = False if self._decide(matrix, 1 - far**2, up=True) is False else None
+        return found
 
     def _of(self, network: Network) -> Floats | None:
         """The matrices; None where a weight is so small beside another that a double does not hold it."""

@@ -186,7 +186,7 @@ def checked(document: Json, data: bytes = b"", numeric: Any = None) -> Report:
 def slow_vector(edges: Edges, n: int, scale: int = 10**6) -> list[int]:
     """An integer vector near the eigenvector of lambda2."""
     matrix = laplacian(edges, n)
-    values, vectors = np.linalg.eigh(matrix + matrix.T + 4 * n * np.ones((n, n)) * abs(matrix).max())
+    _, vectors = np.linalg.eigh(matrix + matrix.T + 4 * n * np.ones((n, n)) * abs(matrix).max())
     entries = [round(x * scale) for x in vectors[:, 0]]
     entries[0] -= sum(entries)
     return entries
