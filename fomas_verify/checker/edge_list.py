@@ -38,7 +38,7 @@ def beside(certificate: Path) -> Opener:
     return opened
 
 
-def read_edge_list(opener: Opener | None, name: str, digest: str, edges: int, agents: int, path: str) -> Network:
+def read_edge_list(opener: Opener | None, name: str, sha256: str, edges: int, agents: int, path: str) -> Network:
     """The network of an edge list.
 
     Raises
@@ -50,13 +50,13 @@ def read_edge_list(opener: Opener | None, name: str, digest: str, edges: int, ag
         raise Malformed(path, "expected the certificate in a file, beside its edge list")
     try:
         with opener(name) as file:
-            return _network(file, digest, edges, agents, path)
+            return _network(file, sha256, edges, agents, path)
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or "a name that cannot be one"
         raise Malformed(path, f"expected the edge list {name!a}, got {reason}") from None
 
 
-def _network(file: BinaryIO, digest: str, edges: int, agents: int, path: str) -> Network:
+def _network(file: BinaryIO, sha256: str, edges: int, agents: int, path: str) -> Network:
     sources, targets = array("q"), array("q")
     weights: list[tuple[int, int]] = []
     seen: dict[bytes, tuple[int, int]] = {}
@@ -77,8 +77,8 @@ def _network(file: BinaryIO, digest: str, edges: int, agents: int, path: str) ->
         weights.append(seen[text])
     if len(weights) != edges:
         raise Malformed(path, f"expected {edges} edges, got {len(weights)}")
-    if sha.hexdigest() != digest:
-        raise Malformed(path, f"expected the SHA-256 digest {digest}, got {sha.hexdigest()}")
+    if sha.hexdigest() != sha256:
+        raise Malformed(path, f"expected the SHA-256 digest {sha256}, got {sha.hexdigest()}")
     denominator = _denominator({below for _, below in seen.values()}, path)
     scaled = {pair: pair[0] * (denominator // pair[1]) for pair in seen.values()}
     return Network(agents, sources, targets, [scaled[pair] for pair in weights], denominator)

@@ -102,14 +102,14 @@ def _graph(value: object, path: str, agents: int) -> Family | EdgeFile:
     if isinstance(value, dict) and "family" in value:
         return _family(value, path, agents)
     given = fields(value, path, ("file", "sha256", "edges"))
-    name, digest = (string(given[key], f"{path}.{key}") for key in ("file", "sha256"))
+    name, sha256 = (string(given[key], f"{path}.{key}") for key in ("file", "sha256"))
     if _NAME.fullmatch(name) is None:
         raise expected(f"{path}.file", "the name of a file in the certificate's own folder", name)
-    if _DIGEST.fullmatch(digest) is None:
-        raise expected(f"{path}.sha256", "64 lower-case hexadecimal digits", digest)
+    if _DIGEST.fullmatch(sha256) is None:
+        raise expected(f"{path}.sha256", "64 lower-case hexadecimal digits", sha256)
     if agents > MAX_AGENTS:
         raise Malformed(path, f"expected at most {MAX_AGENTS} agents with an edge list, got {agents}")
-    return EdgeFile(name, digest, count(given["edges"], f"{path}.edges", 0, MAX_EDGES))
+    return EdgeFile(name, sha256, count(given["edges"], f"{path}.edges", 0, MAX_EDGES))
 
 
 def _family(value: object, path: str, agents: int) -> Family:
