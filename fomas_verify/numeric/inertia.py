@@ -13,6 +13,7 @@ from typing import Any
 from fomas_verify.numeric.floats import SLACK, Symmetric, U
 
 _BLOCK = 20_000
+_STEPS, _LEAST = 8, 1e-3
 _TINY = 2.0**-900
 """More than all that underflow can change in a row, entries being at most about 2^60."""
 
@@ -37,7 +38,10 @@ def inertia(matrix: Symmetric, memory: int) -> tuple[int, float] | None:
 
 
 def _error(matrix: Symmetric, lower: Any, pivots: Any, order: Any) -> float:
-    """A bound of norm E: the residual as computed, and what rounding may have hidden in it."""
+    """A bound of norm E: the residual as computed, and what rounding may have hidden in it.
+
+    For ``abs E <= T`` entry by entry and any x > 0, norm E is at most the largest ``(T x)_i / x_i`` (Collatz, Wielandt).
+    """
     import numpy as np
     from scipy.sparse import csr_array, diags_array, eye_array, triu
 
@@ -48,8 +52,11 @@ def _error(matrix: Symmetric, lower: Any, pivots: Any, order: Any) -> float:
     if (unit.diagonal() != 1).any() or triu(unit, k=1).nnz:
         return float("inf")
     full = csr_array(matrix.upper + triu(matrix.upper, k=1).T)[order][:, order]
-    sizes = abs(unit)
-    rounded = sizes @ (abs(pivots) * (sizes.T @ np.ones(n)))
+    sizes, weights = abs(unit), np.ones(n)
+    for _ in range(_STEPS):
+        weights = sizes @ (abs(pivots) * (sizes.T @ weights))
+        weights = weights / weights.max() + _LEAST
+    rounded = sizes @ (abs(pivots) * (sizes.T @ weights))
     # The sum at place (i, j) has at most as many terms as row i of U has entries.
     terms = (np.diff(unit.indptr) + 8) * U
     rounded = rounded * (terms / (1 - terms))
@@ -57,9 +64,9 @@ def _error(matrix: Symmetric, lower: Any, pivots: Any, order: Any) -> float:
     worst = 0.0
     for start in range(0, n, _BLOCK):
         rows = slice(start, start + _BLOCK)
-        left = abs(scaled[rows] @ turned - full[rows]).sum(axis=1)
-        worst = max(worst, float((left + rounded[rows] + matrix.error[order[rows]]).max()))
-    return worst * SLACK + _TINY
+        left = abs(scaled[rows] @ turned - full[rows]) @ weights
+        worst = max(worst, float(((left + rounded[rows]) / weights[rows]).max()))
+    return (worst + float(matrix.error.max())) * SLACK + _TINY
 
 
 @contextmanager

@@ -87,11 +87,11 @@ class Redo:
                 return None
             holds, error = found
             if holds is None and error > room:
-                room = 2 * error
+                room = error * 1.1
                 continue
             if holds:
                 return True
-            refuted = self._beyond(matrix, target, -max(room, 2 * error), up=up)
+            refuted = self._beyond(matrix, target, -max(room, error * 1.1), up=up)
             return False if refuted is not None and refuted[0] is False else None
         return None
 
