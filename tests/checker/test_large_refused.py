@@ -12,8 +12,10 @@ from typing import Any
 import mpmath
 import pytest
 
-from fomas_verify.checker import Malformed, beside, check
+from fomas_verify.checker import Malformed, beside, check, large_bounds
 from fomas_verify.checker.cosines import versine
+from fomas_verify.checker.edge_list import network_of
+from fomas_verify.checker.families import Family
 from tests.checker.large_networks import (
     NAME,
     Edges,
@@ -23,6 +25,7 @@ from tests.checker.large_networks import (
     claim,
     design,
     edge_list,
+    family_edges,
     file_graph,
     joined,
 )
@@ -282,6 +285,42 @@ def test_a_given_state() -> None:
     assert status(changed(refuted, "design.x0", ...)) == 1
     # With a large gain the first control is the largest of this state, and it takes more than bounds to see it.
     assert status(changed(changed(refuted, "design.mu", "3/10"), "claims.0.verdict", "proved")) == 3
+
+
+@pytest.mark.parametrize(
+    ("graph", "n"),
+    [
+        *(({"family": name}, 5) for name in ("cycle", "path", "star", "complete", "directed-cycle")),
+        ({"family": "cycle"}, 2),
+        ({"family": "hypercube"}, 8),
+        ({"family": "torus", "shape": [3, 4]}, 12),
+        ({"family": "grid", "shape": [3, 2]}, 6),
+    ],
+    ids=str,
+)
+def test_a_family_is_the_graph_of_its_name(graph: Json, n: int) -> None:
+    shape = tuple(graph["shape"]) if "shape" in graph else None
+    family = Family(graph["family"], n, shape)
+    network = network_of(family)
+    found = [
+        (i + 1, j + 1, Fraction(w)) for i, j, w in zip(network.sources, network.targets, network.weights, strict=True)
+    ]
+    assert found == family_edges(graph, n)
+    assert family.edge_count == len(found)
+    assert family.degree_max == network.degree_max
+    assert family.is_symmetric == network.is_symmetric
+
+
+def test_a_state_with_too_many_bits_is_undecided(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(large_bounds, "MAX_STATE_BITS", 100)
+    about = design(file_graph(DATA), 5, mu="1/100", x0=["1/3", "0", "0", "0", f"1/{2**40}"])
+    assert status(certificate(about, claim("trajectory-norm-bound", "refuted"))) == 3
+
+
+def test_weights_with_too_large_a_common_denominator_are_malformed() -> None:
+    data = edge_list([(1, 2, Fraction(1, 2**3000)), (2, 1, Fraction(1, 3**3000))])
+    with pytest.raises(Malformed, match="common denominator"):
+        checked(certificate(design(file_graph(data), 2, mu="1")), data)
 
 
 def test_too_many_edges_are_not_built() -> None:
