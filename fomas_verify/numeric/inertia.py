@@ -40,7 +40,7 @@ def inertia(matrix: Symmetric, memory: int) -> tuple[int, float] | None:
 def _error(matrix: Symmetric, lower: Any, pivots: Any, order: Any) -> float:
     """A bound of norm E: the residual as computed, and what rounding may have hidden in it.
 
-    For ``abs E <= T`` entry by entry and any x > 0, norm E is at most the largest ``(T x)_i / x_i`` (Collatz, Wielandt).
+    With ``abs E <= T`` entry by entry and any x > 0, norm E is at most the largest ``(T x)_i / x_i`` (Collatz).
     """
     import numpy as np
     from scipy.sparse import csr_array, diags_array, eye_array, triu
