@@ -117,7 +117,7 @@ FALSE: list[tuple[Callable[[], Json], str, Any]] = [
 ]
 
 
-@pytest.mark.parametrize(("whole", "path", "value"), FALSE, ids=lambda x: str(x)[:40])
+@pytest.mark.parametrize(("whole", "path", "value"), FALSE, ids=lambda x: getattr(x, "__name__", str(x))[:40])
 def test_what_is_false_is_refused(whole: Callable[[], Json], path: str, value: Any) -> None:
     assert status(changed(whole(), path, value)) == 1
 
@@ -164,7 +164,7 @@ FORM: list[tuple[Callable[[], Json], str, Any]] = [
 ]
 
 
-@pytest.mark.parametrize(("whole", "path", "value"), FORM, ids=lambda x: str(x)[:40])
+@pytest.mark.parametrize(("whole", "path", "value"), FORM, ids=lambda x: getattr(x, "__name__", str(x))[:40])
 def test_what_is_no_certificate_is_malformed(whole: Callable[[], Json], path: str, value: Any) -> None:
     with pytest.raises(Malformed):
         checked(changed(whole(), path, value), DATA)
