@@ -3,29 +3,17 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
-from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
-from fomas_verify.checker import Malformed, Report, check
 from fomas_verify.cli.options import allow_outside_option, json_option, tell_notes
-from fomas_verify.cli.require import OWN, require_option
-from fomas_verify.exact.errors import FomasError
+from fomas_verify.cli.require import require_option
+from fomas_verify.gate.answer import answer_to, read_certificate
 
 if TYPE_CHECKING:
-    from fomas_verify.checker.report import Shortfall
     from fomas_verify.design import Design, SwitchedDesign, UncertainDesign
-
-LARGEST = 64 << 20
-FALSE, UNDECIDED = 1, 3
-ENDINGS = {0: "Accepted.", FALSE: "Refused.", UNDECIDED: "Not decided within the work allowed."}
-
-
-class CertificateError(FomasError):
-    """The file cannot be read as a certificate."""
 
 
 @click.command("check")
@@ -43,26 +31,9 @@ def command(
     Example:  verify-design check certificate.json --design examples/paper.toml --require design
     """
     meant = None if design is None else _read_design(design, allow_outside=allow_outside)
-    try:
-        report = check(_read(certificate))
-    except Malformed as error:
-        raise CertificateError(f"{certificate}: {error}") from None
-    answer = _Answer(report, meant, tuple(dict.fromkeys(_expanded(require, report))))
+    answer = answer_to(read_certificate(certificate), str(certificate), meant, require)
     click.echo(json.dumps(answer.record(), indent=2) if as_json else "\n".join(answer.lines()))
     return answer.status
-
-
-def _read(certificate: Path) -> bytes:
-    try:
-        with certificate.open("rb") as file:
-            return file.read(LARGEST + 1)
-    except OSError as error:
-        raise CertificateError(f"{certificate}: expected a certificate, got {error.strerror}") from None
-
-
-def _expanded(require: tuple[str, ...], report: Report) -> Iterator[str]:
-    for name in require:
-        yield from report.design.require if name == OWN else (name,)
 
 
 def _read_design(path: Path, *, allow_outside: bool) -> Design | UncertainDesign | SwitchedDesign:
@@ -71,93 +42,3 @@ def _read_design(path: Path, *, allow_outside: bool) -> Design | UncertainDesign
     named = read_named(path, allow_outside=allow_outside)
     tell_notes(named)
     return named
-
-
-def differences(report: Report, meant: Design | UncertainDesign | SwitchedDesign) -> list[str]:
-    """The keys in which the certificate's design and the user's are not the same, as exact numbers and intervals."""
-    from fomas_verify.design import SwitchedDesign, UncertainDesign
-
-    named, design = report.design, _plain(meant)
-    numbers = {"alpha": design.alpha, "gamma": design.gamma, "mu": design.mu, "h": design.h}
-    ranges = meant.ranges if isinstance(meant, UncertainDesign) else {}
-    if isinstance(meant, SwitchedDesign) and meant.mu is not None and not meant.mu.is_exact:
-        ranges = {"mu": meant.mu}
-    ours = numbers | {key: (x.lower, x.upper) for key, x in ranges.items()}
-    pairs = {key: (getattr(named, key), number) for key, number in ours.items()} | {
-        "agents": (named.agents, design.graph.agents),
-        **_edges(named, meant),
-        "x0": (named.x0, design.x0),
-        "require": (set(named.require), set(design.require)),
-    }
-    if report.limits is not None:
-        given, limits = report.limits, design.limits
-        theirs = (given.h, given.gamma, given.u_max, given.within)
-        pairs["limits"] = (theirs, (limits.h, limits.gamma, limits.u_max, limits.settle_within))
-        if given.settle_to is not None and design.settle_to is not None:
-            pairs["settle_to"] = (given.settle_to, design.settle_to)
-    return [key for key, (theirs, ours) in pairs.items() if theirs != ours]
-
-
-def _edges(named: Any, meant: Design | UncertainDesign | SwitchedDesign) -> dict[str, tuple[object, object]]:
-    """The edges of both, under the key of the user's design; of several digraphs in their order."""
-    from fomas_verify.checker.switching_form import SwitchedDesign as Switched
-    from fomas_verify.design import SwitchedDesign
-
-    theirs = [sorted(graph.edges) for graph in (named.graphs if isinstance(named, Switched) else (named,))]
-    graphs = meant.graphs if isinstance(meant, SwitchedDesign) else (_plain(meant).graph,)
-    key = "graphs" if isinstance(meant, SwitchedDesign) else "edges"
-    same_kind = isinstance(named, Switched) == isinstance(meant, SwitchedDesign)
-    return {key: (theirs if same_kind else None, [sorted(graph.edges) for graph in graphs])}
-
-
-def _plain(meant: Design | UncertainDesign | SwitchedDesign) -> Design:
-    from fomas_verify.design import plain
-
-    return plain(meant)
-
-
-@dataclass(frozen=True)
-class _Answer:
-    """The checker's report, the design that the certificate must be about, and the claims that must be proved."""
-
-    report: Report
-    meant: Design | UncertainDesign | SwitchedDesign | None
-    required: tuple[str, ...]
-
-    @property
-    def different(self) -> list[str]:
-        return [] if self.meant is None else differences(self.report, self.meant)
-
-    @property
-    def shortfalls(self) -> tuple[Shortfall, ...]:
-        return self.report.shortfalls(self.required)
-
-    @property
-    def status(self) -> int:
-        """1 if anything is false, another design's or a required claim not true; else 3 if anything is undecided."""
-        found = {self.report.exit_status, FALSE if self.different else 0, *(x.exit_status for x in self.shortfalls)}
-        return FALSE if FALSE in found else UNDECIDED if UNDECIDED in found else 0
-
-    def lines(self) -> Iterator[str]:
-        for outcome in self.report.outcomes:
-            verdict = f" {outcome.verdict}" if outcome.verdict else ""
-            yield f"{outcome.status:<10} {outcome.id}{verdict}: {outcome.reason}"
-        if self.meant is not None and self.different:
-            differ = f"{', '.join(self.different)} differ"
-            yield f"refused    design: not the design of {_plain(self.meant).source}: {differ}"
-        elif self.meant is not None:
-            yield f"accepted   design: the design of {_plain(self.meant).source}"
-        for shortfall in self.shortfalls:
-            yield f"required   {shortfall.id}: {shortfall.reason}"
-        if self.required and not self.shortfalls:
-            yield f"required   all {len(self.required)} claims are proved"
-        yield ENDINGS[self.status]
-
-    def record(self) -> dict[str, object]:
-        return {
-            "status": self.status,
-            "outcomes": [asdict(outcome) for outcome in self.report.outcomes],
-            "differences": None if self.meant is None else self.different,
-            "required": list(self.required),
-            "shortfalls": [asdict(shortfall) for shortfall in self.shortfalls],
-        }

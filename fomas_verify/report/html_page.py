@@ -49,6 +49,11 @@ def html_page(body: Document, title: str, figures: Mapping[str, Picture | Plot])
     )
 
 
+def html_fragment(blocks: Blocks) -> str:
+    """Blocks without figures and references, for a page of others."""
+    return _Writer({}, {}).blocks(blocks)
+
+
 class _Writer:
     """Blocks to HTML."""
 

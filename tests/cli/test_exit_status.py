@@ -45,15 +45,15 @@ known = simulate.certified_of
 simulate.certified_of = lambda d: replace(known(d), bounds=replace(known(d).bounds, limit=(Fraction(9),)))"""
 CRASH = "def crash(*a, **k): raise ZeroDivisionError\n"
 REGION = CRASH + "import_module('fomas_verify.cli.region').find_region = crash"
-CHECK = CRASH + "import_module('fomas_verify.cli.check').check = crash"
-SYNTHESIZE = CRASH + "import_module('fomas_verify.cli.synthesize').synthesize = crash"
+CHECK = CRASH + "import_module('fomas_verify.gate.answer').check = crash"
+SYNTHESIZE = CRASH + "import_module('fomas_verify.api.synthesizing').synthesize = crash"
 REFUSAL = """tasks = import_module('fomas_verify.checker.tasks')
 def refuse(*a): raise import_module('fomas_verify.checker.ruling').Refused('no')
 import_module('fomas_verify.checker.report').require_task_claim = refuse"""
 INIT = CRASH + "import_module('fomas_verify.cli.init').write_whole = crash"
 SCHEMA = CRASH + "import_module('fomas_verify.cli.schema').files = crash"
 COMPLETION = CRASH + "import_module('fomas_verify.cli.completion').get_completion_class = crash"
-INTERRUPT = "def stop(*a, **k): raise KeyboardInterrupt\nimport_module('fomas_verify.cli.{0}').{1} = stop"
+INTERRUPT = "def stop(*a, **k): raise KeyboardInterrupt\nimport_module('fomas_verify.{0}').{1} = stop"
 
 # command -> status -> calls, each with what is injected
 TABLE: dict[str, dict[int, list[tuple[str, str]]]] = {
@@ -63,7 +63,7 @@ TABLE: dict[str, dict[int, list[tuple[str, str]]]] = {
         2: [("prove broken.toml", ""), ("prove", ""), ("prove good.toml -o no/where.json", "")],
         3: [("prove large.toml", "")],
         4: [("prove good.toml", THRESHOLD)],
-        130: [("prove good.toml", INTERRUPT.format("prove", "prove"))],
+        130: [("prove good.toml", INTERRUPT.format("cli.prove", "prove"))],
     },
     "check": {
         0: [
@@ -79,20 +79,20 @@ TABLE: dict[str, dict[int, list[tuple[str, str]]]] = {
         2: [("check broken.json", ""), ("check missing", ""), ("check good.json --require x", ""), ("check", "")],
         3: [("check open.json --require gain-bound", "")],
         4: [("check good.json", CHECK)],
-        130: [("check good.json", INTERRUPT.format("check", "check"))],
+        130: [("check good.json", INTERRUPT.format("gate.answer", "check"))],
     },
     "kernel": {
         0: [("kernel good.toml", ""), ("kernel false.toml --json", "")],
         2: [("kernel broken.toml", ""), ("kernel good.toml --at 0", "")],
         4: [("kernel good.toml", MEMORY)],
-        130: [("kernel good.toml", INTERRUPT.format("kernel", "kernel_rows"))],
+        130: [("kernel good.toml", INTERRUPT.format("cli.kernel", "kernel_rows"))],
     },
     "region": {
         0: [("region start.toml", ""), ("region false.toml --json", ""), ("region good.toml -o region.json", "")],
         2: [("region broken.toml", ""), ("region good.toml -o no/where.json", ""), ("region", "")],
         3: [("region large.toml", "")],
         4: [("region good.toml", REGION)],
-        130: [("region good.toml", INTERRUPT.format("region", "find_region"))],
+        130: [("region good.toml", INTERRUPT.format("cli.region", "find_region"))],
     },
     "synthesize": {
         0: [("synthesize good.toml --direct", ""), ("synthesize start.toml --direct --json -o found", "")],
@@ -108,20 +108,20 @@ TABLE: dict[str, dict[int, list[tuple[str, str]]]] = {
         ],
         3: [("synthesize large.toml", ""), ("synthesize steps.toml --direct", "")],
         4: [("synthesize good.toml --direct", SYNTHESIZE), ("synthesize good.toml --direct -o bad", REFUSAL)],
-        130: [("synthesize good.toml", INTERRUPT.format("synthesize", "find_region"))],
+        130: [("synthesize good.toml", INTERRUPT.format("api.synthesizing", "find_region"))],
     },
     "simulate": {
         0: [("simulate start.toml --samples 3", ""), ("simulate start.toml --samples 3 --json", "")],
         2: [("simulate good.toml", ""), ("simulate start.toml --csv no/where.csv", ""), ("simulate", "")],
         4: [("simulate start.toml --samples 3", LIMIT)],
-        130: [("simulate start.toml", INTERRUPT.format("simulate", "certified_of"))],
+        130: [("simulate start.toml", INTERRUPT.format("cli.simulate", "certified_of"))],
     },
     "report": {
         0: [("report good.toml -o good", ""), ("report false.toml -o false", "")],
         2: [("report broken.toml -o out", ""), ("report good.toml -o good.toml", "")],
         3: [("report large.toml -o out", "")],
         4: [("report good.toml -o out", THRESHOLD)],
-        130: [("report good.toml -o out", INTERRUPT.format("report", "prove"))],
+        130: [("report good.toml -o out", INTERRUPT.format("cli.report", "prove"))],
     },
     "gate": {
         0: [("gate designs", ""), ("gate good.toml --json", "")],
@@ -134,31 +134,31 @@ TABLE: dict[str, dict[int, list[tuple[str, str]]]] = {
         ],
         3: [("gate -j 1 good.toml large.toml", "")],
         4: [("gate false.toml good.toml broken.toml", THRESHOLD)],
-        130: [("gate good.toml", INTERRUPT.format("gate", "find_designs").replace("cli.gate", "gate.discovery"))],
+        130: [("gate good.toml", INTERRUPT.format("gate.discovery", "find_designs"))],
     },
     "init": {
         0: [("init new", "")],
         2: [("init good.toml", ""), ("init made", ""), ("init a b", "")],
         4: [("init other", INIT)],
-        130: [("init other", INTERRUPT.format("init", "write_whole"))],
+        130: [("init other", INTERRUPT.format("cli.init", "write_whole"))],
     },
     "schema": {
         0: [("schema design", ""), ("schema certificate", "")],
         2: [("schema", ""), ("schema graph", "")],
         4: [("schema design", SCHEMA)],
-        130: [("schema design", INTERRUPT.format("schema", "files"))],
+        130: [("schema design", INTERRUPT.format("cli.schema", "files"))],
     },
     "completion": {
         0: [("completion bash", ""), ("completion zsh", ""), ("completion fish", "")],
         2: [("completion", ""), ("completion csh", "")],
         4: [("completion bash", COMPLETION)],
-        130: [("completion bash", INTERRUPT.format("completion", "get_completion_class"))],
+        130: [("completion bash", INTERRUPT.format("cli.completion", "get_completion_class"))],
     },
     "selftest": {
         0: [("selftest", ""), ("selftest --json", "")],
         2: [("selftest extra", "")],
         4: [("selftest", NEGATION), ("selftest --json", NEGATION)],
-        130: [("selftest", INTERRUPT.format("selftest", "check"))],
+        130: [("selftest", INTERRUPT.format("cli.selftest", "check"))],
     },
 }
 CALLS = [

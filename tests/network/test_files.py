@@ -1,5 +1,7 @@
 """Graphs from files: what networkx, scipy and MATLAB wrote reads as the same edges, and whatever else is refused."""
 
+import random
+import re
 import struct
 from collections.abc import Callable
 from fractions import Fraction
@@ -15,6 +17,7 @@ import scipy.sparse
 from fomas_verify.network import Digraph, adjacency, digraph, family
 from fomas_verify.network.files import GraphFileError, graph_from_matrix, graph_from_networkx, read_graph_file
 from fomas_verify.network.files.entries import degrees
+from fomas_verify.network.files.weights import WeightError, ratios_of_texts
 from fomas_verify.network.sparse import sparse_digraph
 
 REAL = Path(scipy.io.__file__).parent / "matlab" / "tests" / "data"
@@ -311,3 +314,24 @@ def test_weights_under_another_name_are_not_read_and_that_is_said() -> None:
     found = graph_from_networkx(nx.DiGraph([(1, 2, {"gain": 3}), (2, 1, {"gain": 3})]))
     assert found.graph.to_digraph() == family("path", agents=2)
     assert found.remarks == ("no edge has the attribute 'weight': every weight is 1, 'gain' is not read",)
+
+
+def test_numbers_read_fast_are_those_that_python_reads() -> None:
+    """Texts of the characters of numbers, most of them none: the same as `Fraction` says, but for its spellings."""
+    source = random.Random(4)
+    accepted = 0
+    for _ in range(20_000):
+        text = "".join(
+            source.choice("0123456789.e+-" if source.random() < 0.5 else "015") for _ in range(source.randint(1, 7))
+        )
+        if re.search(r"e[+-]?[0-9]{4}", text):
+            continue  # of any size there, bounded here
+        try:
+            ((numerator, denominator),) = ratios_of_texts([text])
+        except WeightError:
+            with pytest.raises(ValueError, match="Invalid literal"):
+                Fraction(text)
+        else:
+            accepted += 1
+            assert Fraction(text) == Fraction(numerator, denominator)
+    assert 2_000 < accepted < 18_000

@@ -85,6 +85,14 @@ REFUSED = {
         "%%MatrixMarket matrix coordinate real symmetric\n2 2 2\n2 1 1\n1 2 1\n",
         "line 4: expected each edge once",
     ),
+    "a.mtx huge header": (
+        COORDINATE + "99999999999 99999999999 1\n1 2 1\n",
+        "expected at most 20000000 agents, got 999",
+    ),
+    "a.mtx huge array": (
+        "%%MatrixMarket matrix array real general\n9999999 9999999\n0\n",
+        "expected 99999980000001 numbers, as its header says, got 1",
+    ),
     "a.mtx short array": (
         "%%MatrixMarket matrix array real general\n2 2\n0\n1\n1\n",
         "expected 4 numbers, as its header says, got 3",
@@ -252,7 +260,7 @@ def test_a_matlab_file_that_would_fill_memory(tmp_path: Path, monkeypatch: pytes
 @pytest.mark.parametrize(
     ("head", "refusal"),
     [
-        ("coordinate real general\n1000000000 1000000000 2\n1 2 1\n2 1 1\n", "expected at most 4194304 agents"),
+        ("coordinate real general\n1000000000 1000000000 2\n1 2 1\n2 1 1\n", "expected at most 20000000 agents"),
         ("coordinate real general\n9223372036854775807 9223372036854775807 2\n1 2 1\n2 1 1\n", "expected"),
         ("array real general\n1000000 1000000\n1\n2\n", "expected 1000000000000 numbers, as its header says, got 2"),
         ("array real symmetric\n1000000 1000000\n1\n2\n", "expected 500000500000 numbers, as its header says, got 2"),
@@ -267,7 +275,7 @@ def test_a_header_that_asks_for_memory(tmp_path: Path, head: str, refusal: str) 
 def test_a_sparse_matrix_of_vast_shape(tmp_path: Path) -> None:
     two = np.array([0, 1])
     scipy.sparse.save_npz(tmp_path / "a.npz", scipy.sparse.coo_array((two + 1.0, (two, two[::-1])), (10**9, 10**9)))
-    with pytest.raises(GraphFileError, match="expected at most 4194304 agents, got 1000000000"):
+    with pytest.raises(GraphFileError, match="expected at most 20000000 agents, got 1000000000"):
         read_graph_file(tmp_path / "a.npz", "hears")
 
 

@@ -66,8 +66,11 @@ def read_graph_file(
     ending = check_call(found.name, orientation, variable, called)
     need_extra("numpy")
     must_be_file(found, called)
-    entries = _reader(ending, variable)(found, called)
-    return GraphFile(assemble(entries, orientation or FROM_TO, called), entries.remarks)
+    try:
+        entries = _reader(ending, variable)(found, called)
+        return GraphFile(assemble(entries, orientation or FROM_TO, called), entries.remarks)
+    except MemoryError:
+        raise refused(called, "a graph for which there is memory", "a larger one") from None
 
 
 def check_call(file: str, orientation: str | None, variable: str | None, name: str) -> str:

@@ -51,7 +51,7 @@ class Lines:
         """The different weights; 1 where no line has one."""
         if self.columns == 2:
             return [(1, 1)]
-        return ratios_of_texts(text.decode("latin-1") for text in self.texts)
+        return ratios_of_texts(b"\n".join(self.texts).decode("latin-1").split("\n") if self.texts else ())
 
 
 def read_lines(

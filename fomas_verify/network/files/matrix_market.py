@@ -65,7 +65,7 @@ def _array(file: IO[bytes], agents: int, symmetric: bool, name: str) -> Entries:
     import numpy as np
 
     texts = file.read().split()
-    count = agents * (agents + 1) // 2 if symmetric else agents * agents
+    count = agents * (agents + 1) // 2 if symmetric else agents**2
     if len(texts) != count:
         raise refused(name, f"{count} numbers, as its header says", f"{len(texts)}")
     rows, columns = _lower(agents) if symmetric else _full(agents)

@@ -21,7 +21,8 @@ MAX_DENOMINATOR_BITS: Final = 256
 SHORTEST: Final = "weights that are binary floats are read as their shortest decimals (0.1 is 1/10)"
 
 _MAX_BITS, _MAX_CHARACTERS = 4096, 4000
-_PLAIN = re.compile(r"-?[0-9]+(?:\.[0-9]+)?")
+# Of these characters whatever `int` reads without its point is a decimal, but for a sign after the point.
+_PLAIN = re.compile(r"[0-9.e+\n-]*")
 _POWERS = [10**k for k in range(30)]
 _DECIMAL = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,4})?")
 _FRACTION = re.compile(r"([+-]?[0-9]+)/([0-9]+)")
@@ -71,11 +72,20 @@ def _bounded(positions: dict[int, int]) -> int:
 
 def ratios_of_texts(texts: Iterable[str]) -> list[Ratio]:
     """Numerators and denominators of decimals and fractions; raises `WeightError` where one is neither."""
+    listed = list(texts)
     found: list[Ratio] = []
-    for text in texts:
-        if len(text) < len(_POWERS) and _PLAIN.fullmatch(text):
-            whole, _, decimals = text.partition(".")
-            found.append((int(whole + decimals), _POWERS[len(decimals)]))
+    joined = "\n".join(listed)
+    if not _PLAIN.fullmatch(joined) or ".+" in joined or ".-" in joined:
+        return [_checked(i, text, _ratio_of_text) for i, text in enumerate(listed)]
+    for text in listed:
+        mantissa, marked, power = text.partition("e")
+        whole, _, decimals = mantissa.partition(".")
+        try:
+            digits, shift = int(whole + decimals), len(decimals) - (int(power) if marked else 0)
+        except ValueError:
+            shift = -1
+        if 0 <= shift < len(_POWERS):
+            found.append((digits, _POWERS[shift]))
         else:
             found.append(_checked(len(found), text, _ratio_of_text))
     return found
