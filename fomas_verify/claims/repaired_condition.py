@@ -6,7 +6,6 @@ Equality never happens for a rational mu (theory, section 7). Source: theory, se
 
 from __future__ import annotations
 
-from functools import cache
 from typing import Any
 
 from fomas_verify.claims.remedy import DIGITS, lower_mu, raise_mu
@@ -18,6 +17,7 @@ from fomas_verify.spectrum.contraction import direction_above
 from fomas_verify.spectrum.loop import Loop
 from fomas_verify.spectrum.margins import repaired_region
 from fomas_verify.spectrum.precision import PRECISIONS
+from fomas_verify.spectrum.remembered import of_loop
 from fomas_verify.spectrum.samples import Box
 
 ID = "repaired-condition"
@@ -47,7 +47,7 @@ def holds_over(loop: Loop, box: Box, bits: int) -> dict[str, Any] | None:
     return {} if sigma_at_most_threshold(loop, box, bits) else None
 
 
-@cache
+@of_loop
 def remedy(loop: Loop) -> str:
     """The nearest mu that satisfies the condition, seen to satisfy it; or that there is none."""
     region, margin = repaired_region(loop), margins.repaired_condition(loop)

@@ -19,6 +19,7 @@ COMMANDS = {
     "simulate": "the closed loop under the paper's controller and others: table, figures",
     "report": "LaTeX report of a design, and its PDF where a LaTeX is at hand",
     "gate": "many designs, one exit status: the gate of a CI job",
+    "sweep": "a grid of designs, on all cores or on a Dask cluster, to a Parquet dataset",
     "init": "a commented design file to start from",
     "schema": "the JSON Schema of the design file or of the certificate",
     "completion": "completion of commands and options for bash, zsh and fish",

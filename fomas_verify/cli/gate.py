@@ -4,18 +4,15 @@ from __future__ import annotations
 
 import os
 import re
-import signal
 import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass, field
 from fractions import Fraction
 from pathlib import Path
-from types import FrameType
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, Any
 
 import click
 
+from fomas_verify.cli.machine import ended_by_sigterm, processors
 from fomas_verify.cli.options import allow_outside_option, json_option
 from fomas_verify.cli.require import OWN, require_option
 from fomas_verify.report.files import OutputError, make_folder, write_whole
@@ -24,7 +21,6 @@ if TYPE_CHECKING:
     from fomas_verify.gate.discovery import Found
     from fomas_verify.gate.model import Answer, Result
 
-TERMINATED = 143
 FILE = click.Path(path_type=Path)
 FOLDER = click.Path(path_type=Path, exists=True, file_okay=False)
 
@@ -108,28 +104,10 @@ def command(
     margins = baseline is not None or output is not None
     options = Options(require or (OWN,), margins, cache, baseline, loss, new_ok, allow_outside)
     teller = _Teller(sum(isinstance(x, Path) for x in found), quiet=quiet, silent=as_json, output=output, cache=cache)
-    with _ended_by_sigterm():
-        answer = run_gate(found, options, jobs or _processors(), teller.tell)
+    with ended_by_sigterm():
+        answer = run_gate(found, options, jobs or processors(), teller.tell)
     teller.end(answer, as_json=as_json)
     return first_of([answer.status, *teller.failures, *_write(answer, junit, sarif, markdown)])
-
-
-def _processors() -> int:
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-
-
-@contextmanager
-def _ended_by_sigterm() -> Iterator[None]:
-    """A termination, as a CI job's cancelling sends it, ends the run like an interruption, processes included."""
-
-    def end(_: int, __: FrameType | None) -> NoReturn:
-        raise SystemExit(TERMINATED)
-
-    former = signal.signal(signal.SIGTERM, end)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGTERM, former)
 
 
 def _refuse_overlap(reports: dict[str, Path], found: list[Found]) -> None:

@@ -24,6 +24,7 @@ FORMAT: Final = "fomas-design/1"
 MAX_HORIZON: Final = 10**9
 MAX_NAME: Final = 200
 MAX_GRAPHS: Final = 64
+ALPHA_LIMIT: Final = 2**64
 
 _KEYS = (
     "name",
@@ -41,7 +42,6 @@ _KEYS = (
     "graphs",
 )
 _NOT_SWITCHED = ("x0", "horizon", "settle_to", "limits")
-_ALPHA_LIMIT = 2**64
 
 
 def read_design(path: str | PathLike[str], *, allow_outside: bool = False) -> Design:
@@ -149,7 +149,7 @@ def named_from_mapping(
     if "gamma" in top and "mu" in top:
         raise DesignError(f"{place.key('mu')}: expected either gamma or mu, got both")
     gains = [key for key in ("gamma", "mu", "h") if key in top]
-    numbers = {"alpha": _number_or_interval(top.get("alpha"), place.key("alpha"), _alpha)}
+    numbers = {"alpha": _number_or_interval(top.get("alpha"), place.key("alpha"), read_alpha)}
     numbers |= {key: _number_or_interval(top[key], place.key(key), positive) for key in gains}
     ranges = {key: x for key, x in numbers.items() if not x.is_exact}
     for key in ("horizon", "settle_to"):
@@ -216,11 +216,12 @@ def _number_or_interval(value: object, place: Place, read: Callable[[object, Pla
     return Interval(lower, upper)
 
 
-def _alpha(value: object, place: Place) -> Fraction:
+def read_alpha(value: object, place: Place) -> Fraction:
+    """Read an order: a number between 0 and 1, both excluded; raises `DesignError`."""
     alpha = number(value, place)
     if not 0 < alpha < 1:
         raise place.expected("a number between 0 and 1, both excluded", value)
-    if alpha.denominator >= _ALPHA_LIMIT:
+    if alpha.denominator >= ALPHA_LIMIT:
         raise place.expected("numerator and denominator below 2^64", value)
     return alpha
 

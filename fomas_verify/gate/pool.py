@@ -6,17 +6,15 @@ deciding, and of no other.
 
 from __future__ import annotations
 
-import signal
-from collections.abc import Generator, Iterator, Sequence
-from concurrent.futures import Future, ProcessPoolExecutor
+from collections.abc import Generator, Sequence
+from concurrent.futures import Future
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager
-from multiprocessing import active_children
 from pathlib import Path
 
 from fomas_verify.design.document import source_name
 from fomas_verify.gate.deciding import Options, decide
 from fomas_verify.gate.model import BROKEN, INTERNAL, Finding, Result
+from fomas_verify.prover.processes import processes
 
 
 def decide_all(paths: Sequence[Path], options: Options, jobs: int) -> Generator[Result, None, None]:
@@ -42,7 +40,7 @@ def decide_all(paths: Sequence[Path], options: Options, jobs: int) -> Generator[
     remaining = list(paths)
     while remaining:
         answered = 0
-        with _processes(min(jobs, len(remaining))) as pool:
+        with processes(min(jobs, len(remaining))) as pool:
             futures = [pool.submit(decide, path, options) for path in remaining]
             while answered < len(futures) and (result := _result(futures[answered])) is not None:
                 yield result
@@ -54,7 +52,7 @@ def decide_all(paths: Sequence[Path], options: Options, jobs: int) -> Generator[
 
 def _alone(path: Path, options: Options) -> Result:
     """Decide the first design that was lost with a pool again, to know whether it is the one that ends processes."""
-    with _processes(1) as pool:
+    with processes(1) as pool:
         return _result(pool.submit(decide, path, options)) or _ended(path)
 
 
@@ -68,24 +66,3 @@ def _result(future: Future[Result]) -> Result | None:
 def _ended(path: Path) -> Result:
     reason = "the process that decided it was ended from outside, or ran out of memory"
     return Result(source_name(path), str(path), findings=(Finding(BROKEN, "", INTERNAL, reason),))
-
-
-def _leave_signals_to_the_parent() -> None:
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    signal.signal(signal.SIGTERM, signal.SIG_DFL)
-
-
-@contextmanager
-def _processes(count: int) -> Iterator[ProcessPoolExecutor]:
-    """A pool that ends, with all its processes, when this one is interrupted."""
-    before = set(active_children())
-    pool = ProcessPoolExecutor(count, initializer=_leave_signals_to_the_parent)
-    try:
-        yield pool
-    except BaseException:
-        for process in set(active_children()) - before:
-            process.terminate()
-        # Waits, once: its thread must have ended before the interpreter does, which would wake it by a closed pipe.
-        pool.shutdown(cancel_futures=True)
-        raise
-    pool.shutdown()

@@ -71,7 +71,12 @@ def exit_status_of(require: Sequence[str], decisions: Mapping[str, Decision]) ->
 
 
 def prove(
-    design: Design, *, horizon: int | None = None, digits: int = DEFAULT_DIGITS, only: Collection[str] | None = None
+    design: Design,
+    *,
+    horizon: int | None = None,
+    digits: int = DEFAULT_DIGITS,
+    only: Collection[str] | None = None,
+    like: Loop | None = None,
 ) -> Proof:
     """Decide every claim about a design, or only some.
 
@@ -86,6 +91,9 @@ def prove(
     only : collection of str, optional
         Ids of the claims to decide; then no sizes and no margins are measured. A horizon is checked with
         memory-inequality only.
+    like : Loop, optional
+        That of a design on the same digraph: what was computed of the digraph is not computed again. It changes no
+        answer.
 
     Returns
     -------
@@ -100,7 +108,7 @@ def prove(
     design.needs("mu", command="prove")
     if design.graph.agents > MOST_AGENTS:
         raise WorkLimitError(f"{design.source}: more than {MOST_AGENTS} agents are beyond prove for now: undecided")
-    loop = Loop(design)
+    loop = Loop(design) if like is None else like.on_same_graph(design)
     values = enclose_values(loop, digits)
     _compare_with_mpmath(design, values, digits)
     measured = Sizes() if only is not None else measure(loop, decided_stable=stability(loop).side is Side.INSIDE)

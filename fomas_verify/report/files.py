@@ -22,7 +22,7 @@ class OutputError(FomasError):
     """A file or folder cannot be written; one line: `FILE: why`."""
 
 
-def write_whole(path: Path, data: bytes) -> None:
+def write_whole(path: Path, data: bytes, *, durable: bool = False) -> None:
     """Write a file so that a reader sees the former content or the new one, never a part.
 
     Parameters
@@ -32,6 +32,8 @@ def write_whole(path: Path, data: bytes) -> None:
         written to directly.
     data : bytes
         The content.
+    durable : bool
+        Wait until the disk has it, so that it is whole after a loss of power too.
 
     Raises
     ------
@@ -39,16 +41,16 @@ def write_whole(path: Path, data: bytes) -> None:
         It cannot be written, or a design stands there; then the former file is unchanged and no temporary file is
         left.
     """
-    write_all({path: data})
+    write_all({path: data}, durable=durable)
 
 
-def write_all(contents: Mapping[Path, bytes]) -> None:
+def write_all(contents: Mapping[Path, bytes], *, durable: bool = False) -> None:
     """Write several files as `write_whole` does, none where one cannot be stored; raises `OutputError`."""
     staged: list[tuple[Path, Path]] = []
     try:
         for path, data in contents.items():
             with _refusals_named(path):
-                _stage(path, data, staged)
+                _stage(path, data, staged, durable=durable)
         while staged:
             temporary, path = staged[0]
             with _refusals_named(path):
@@ -72,7 +74,7 @@ def remove_file(path: Path) -> None:
         path.unlink(missing_ok=True)
 
 
-def _stage(path: Path, data: bytes, staged: list[tuple[Path, Path]]) -> None:
+def _stage(path: Path, data: bytes, staged: list[tuple[Path, Path]], *, durable: bool) -> None:
     if path.is_dir():
         raise IsADirectoryError(None, "is a directory")
     if path.exists() and not path.is_file():
@@ -85,6 +87,9 @@ def _stage(path: Path, data: bytes, staged: list[tuple[Path, Path]]) -> None:
     staged.append((temporary, target))
     with temporary.open("xb") as file:
         file.write(data)
+        if durable:
+            file.flush()
+            os.fsync(file.fileno())
 
 
 def _is_a_design(path: Path) -> bool:

@@ -7,9 +7,8 @@ Source: theory, sections 0 and 3.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
-from functools import cache, cached_property
 
 from fomas_verify.design import Design
 from fomas_verify.enclosure.interval import Interval
@@ -21,6 +20,7 @@ from fomas_verify.exact.polynomial import Polynomial, integer_characteristic_pol
 from fomas_verify.kernel.memory import one_step_weight, step_response
 from fomas_verify.kernel.memory import threshold as kernel_threshold
 from fomas_verify.network import degree_max, imbalances, laplacian, unreachable_pair
+from fomas_verify.spectrum.remembered import Remembered, of_graph, of_loop, of_order
 
 MOST_SAMPLES = 20_000
 """The last sample examined of any design."""
@@ -32,33 +32,55 @@ class Loop:
 
     design: Design
     most_samples: int = MOST_SAMPLES
+    remembered: Remembered = field(default_factory=Remembered, repr=False)
 
-    @cached_property
+    def on_same_graph(self, design: Design) -> Loop:
+        """The loop of a design on this digraph: what is known of the digraph, and of alpha where it is the same, is
+        known of it too.
+
+        Raises
+        ------
+        ValueError
+            The digraph is another.
+        """
+        if design.graph != self.design.graph:
+            raise ValueError("expected a design on the same digraph")
+        known = self.remembered
+        of_order = known.of_order if design.alpha == self.design.alpha else {}
+        return Loop(design, self.most_samples, Remembered(known.of_graph, of_order))
+
+    @property
+    @of_graph
     def laplacian(self) -> Matrix:
         """L; row i belongs to agent i, who hears agent j where ``a_ij > 0``."""
         return exact.matrix(laplacian(self.design.graph))
 
-    @cached_property
+    @property
+    @of_graph
     def symmetric_part(self) -> Matrix:
         """``L_s = (L + L^T)/2``."""
         return exact.scaled(self.laplacian + self.laplacian.transpose(), Fraction(1, 2))
 
-    @cached_property
+    @property
+    @of_graph
     def on_differences(self) -> Matrix:
         """L acting on the differences from the last agent."""
         return exact.on_differences(self.laplacian)
 
-    @cached_property
+    @property
+    @of_graph
     def degree_max(self) -> Fraction:
         """D."""
         return degree_max(self.design.graph)
 
-    @cached_property
+    @property
+    @of_graph
     def assumption1(self) -> bool:
         """Whether the digraph is strongly connected and balanced; exact."""
         return unreachable_pair(self.design.graph) is None and not imbalances(self.design.graph)
 
-    @cached_property
+    @property
+    @of_graph
     def agreement_weights(self) -> list[Fraction] | None:
         """The w >= 0 with ``w^T L = 0`` and ``sum w_i = 1``; None where no agent reaches every other. Exact."""
         null = exact.kernel(self.laplacian.transpose())
@@ -67,7 +89,7 @@ class Loop:
         w = [row[0] for row in exact.to_rows(null)]
         return [x / sum(w) for x in w]
 
-    @cache  # noqa: B019  a loop lives as long as its run
+    @of_loop
     def mu(self, bits: int) -> Interval:
         """The integrated gain; exact where the design gives it."""
         design = self.design
@@ -77,46 +99,47 @@ class Loop:
             raise TypeError("a closed loop needs mu, or gamma and h")
         return one_step_weight(design.alpha, design.h, bits) * design.gamma
 
-    @cache  # noqa: B019
+    @of_order
     def threshold(self, bits: int) -> Interval:
         """``2^alpha - 1``."""
         return kernel_threshold(self.design.alpha, bits)
 
-    @cache  # noqa: B019
+    @of_order
     def lower_threshold(self, bits: int) -> Interval:
         """``-sqrt(3^alpha - 2^alpha)``: beta below it breaks (14) at k = 1."""
         return -square_root(step_response(self.design.alpha, 2, bits), bits)
 
-    @cached_property
+    @property
+    @of_graph
     def _symmetric_characteristic(self) -> tuple[Polynomial, int]:
         """The characteristic polynomial of L_s on 1perp, its roots scaled by the integer that comes with it."""
         polynomial, scale = integer_characteristic_polynomial(self.symmetric_part)
         return without_zero_root(polynomial), scale
 
-    @cached_property
+    @property
     def symmetric_characteristic(self) -> Polynomial:
         """As above without the scale: an integer polynomial whose roots are the eigenvalues of L_s on 1perp times
         :attr:`symmetric_scale`.
         """
         return self._symmetric_characteristic[0]
 
-    @cached_property
+    @property
     def symmetric_scale(self) -> int:
         """The scale of :attr:`symmetric_characteristic`."""
         return self._symmetric_characteristic[1]
 
-    @cache  # noqa: B019
+    @of_graph
     def symmetric_spectrum(self, bits: int) -> list[tuple[Interval, int]]:
         """The distinct eigenvalues of L_s on 1perp in increasing order, with multiplicities."""
         roots = real_roots(self.symmetric_characteristic, bits)
         return [(root / self.symmetric_scale, count) for root, count in roots]
 
-    @cache  # noqa: B019
+    @of_graph
     def lambda2(self, bits: int) -> Interval:
         """The smallest eigenvalue of L_s on 1perp; exact where it is a multiple of 1/scale."""
         return least_root(self.symmetric_characteristic, bits) / self.symmetric_scale
 
-    @cache  # noqa: B019
+    @of_graph
     def lambda_max(self, bits: int) -> Interval:
         """The largest eigenvalue of L_s on 1perp."""
         return greatest_root(self.symmetric_characteristic, bits) / self.symmetric_scale
@@ -125,7 +148,7 @@ class Loop:
         """``1 - mu lambda2``."""
         return 1 - self.mu(bits) * self.lambda2(bits)
 
-    @cache  # noqa: B019
+    @of_loop
     def sigma(self, bits: int) -> Interval:
         """The norm of P on 1perp, from the exact singular values at a rational mu inside the enclosure.
 
@@ -137,12 +160,13 @@ class Loop:
         sigma = sigma_at(self.laplacian, middle, 2 * bits)
         return Interval(max(Fraction(0), sigma.lower - slack), sigma.upper + slack)
 
-    @cache  # noqa: B019
+    @of_graph
     def disagreement_eigenvalues(self, bits: int) -> list[Root]:
         """The eigenvalues of L other than the one 0 of the vector 1, distinct, with multiplicities."""
         polynomial, scale = integer_characteristic_polynomial(self.on_differences)
         return [root.over(scale) for root in complex_roots(polynomial, bits)]
 
+    @of_graph
     def mu_star(self, bits: int) -> Interval | None:
         """``min 2 Re(lambda)/abs(lambda)^2`` over these eigenvalues: P is Schur on the differences iff 0 < mu < mu*.
 

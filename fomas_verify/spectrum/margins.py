@@ -8,13 +8,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
-from functools import cache
 from typing import Any
 
 from fomas_verify.enclosure.interval import Interval, is_dyadic, short_dyadic
 from fomas_verify.spectrum.contraction import contraction_interval
 from fomas_verify.spectrum.loop import Loop, sigma_at
 from fomas_verify.spectrum.precision import PRECISIONS
+from fomas_verify.spectrum.remembered import of_graph, of_loop, of_order
 from fomas_verify.spectrum.stability import (
     at,
     invariant_form,
@@ -53,7 +53,7 @@ class MuMargin:
     witness: Mapping[str, Any] = field(default_factory=dict)
 
 
-@cache
+@of_graph
 def gain_bound(loop: Loop) -> MuMargin | None:
     """``mu < 1/D``, exactly; None without edges, where every mu will do."""
     if loop.degree_max == 0:
@@ -62,7 +62,7 @@ def gain_bound(loop: Loop) -> MuMargin | None:
     return MuMargin(Interval.exactly(0), Interval.exactly(end), (zero, end), (zero, end))
 
 
-@cache
+@of_order
 def memory_inequality(loop: Loop) -> MuMargin:
     """``(2 - 2^alpha)/lambda2 <= mu <= (1 + sqrt(c_2))/lambda2``; under Assumption 1. Rigorous."""
     lambda2 = loop.lambda2(BITS)
@@ -71,13 +71,13 @@ def memory_inequality(loop: Loop) -> MuMargin:
     return MuMargin(lower, upper, inner, (below(lower.lower, FINE), above(upper.upper, FINE)))
 
 
-@cache
+@of_order
 def repaired_region(loop: Loop) -> Interval | None:
     """An interval outside which no mu has ``sigma(mu) <= 2^alpha - 1``; None where no mu at all has it. Rigorous."""
     return contraction_interval(loop, loop.threshold(BITS))
 
 
-@cache
+@of_order
 def repaired_condition(loop: Loop) -> MuMargin | None:
     """``sigma(mu) <= 2^alpha - 1``; under Assumption 1. None where no mu has it, or none was found. Rigorous."""
     threshold, region = loop.threshold(BITS), repaired_region(loop)
@@ -95,7 +95,7 @@ def repaired_condition(loop: Loop) -> MuMargin | None:
     return None
 
 
-@cache
+@of_loop
 def perron_eigenvalues(loop: Loop, gaps: tuple[int, ...] = STABILITY_GAPS) -> MuMargin | None:
     """``mu < mu*``, passed on either side by the first of the gaps that a witness is found for; None where no mu will
     do, or no witness was found within the work allowed. Rigorous.

@@ -12,7 +12,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cache
 
 from fomas_verify.enclosure.interval import Interval
 from fomas_verify.enclosure.norms import (
@@ -26,6 +25,7 @@ from fomas_verify.enclosure.norms import (
 from fomas_verify.enclosure.real import working_precision
 from fomas_verify.kernel.memory import resolvent_over, step_response_over
 from fomas_verify.spectrum.loop import Loop
+from fomas_verify.spectrum.remembered import of_loop
 
 COARSE, ROUGH, MIDDLE, FINE = 4, 7, 14, 52
 """Squarings of a norm on the way and of one that decides: relative widths of about 5 %, 1 %, 5e-5 and 1e-15."""
@@ -173,7 +173,7 @@ class Search:
     above: int | None
 
 
-@cache
+@of_loop
 def search(loop: Loop, bits: int) -> Search:
     """Find the peak, for a P that is Schur on 1perp. Rigorous.
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 from bisect import insort
 from collections.abc import Callable
 from fractions import Fraction
-from functools import cache
 
 from fomas_verify.enclosure.interval import Interval, short_dyadic
 from fomas_verify.enclosure.real import square_root
@@ -16,6 +15,7 @@ from fomas_verify.kernel.memory import one_step_weight_over, step_response, step
 from fomas_verify.spectrum import margins as of_mu
 from fomas_verify.spectrum.loop import Loop, sigma_at
 from fomas_verify.spectrum.margins import MuMargin
+from fomas_verify.spectrum.remembered import of_loop
 from fomas_verify.spectrum.samples import Box
 
 BITS = 128
@@ -96,7 +96,7 @@ def contracts_over(loop: Loop, box: Box) -> bool:
     return all(chords_of(loop).exceeds(end, threshold) is False for end in (box.mu.lower, box.mu.upper))
 
 
-@cache
+@of_loop
 def chords_of(loop: Loop) -> Chords:
     """Those of one loop, kept."""
     return Chords(loop)

@@ -12,7 +12,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 from fractions import Fraction
-from functools import cache
 from typing import Any
 
 from fomas_verify.enclosure.interval import Interval, is_dyadic, short_dyadic
@@ -29,6 +28,7 @@ from fomas_verify.exact.polynomial import (
 )
 from fomas_verify.spectrum.loop import Loop
 from fomas_verify.spectrum.precision import PRECISIONS
+from fomas_verify.spectrum.remembered import of_graph, of_loop
 
 
 class Side(StrEnum):
@@ -49,7 +49,7 @@ class Stability:
     mu_star: Interval | None
 
 
-@cache
+@of_loop
 def stability(loop: Loop) -> Stability:
     """Decide mu < mu*, as to its truth; rigorous. A tie of a rational mu is decided exactly."""
     star = None
@@ -78,6 +78,7 @@ def stability(loop: Loop) -> Stability:
     return Stability(Side.UNKNOWN, {"bits": PRECISIONS[-1]}, star)
 
 
+@of_graph
 def mu_star(loop: Loop, bits: int) -> Interval | None:
     """mu*, exactly 1/Delta_max where it is that number, as on a directed cycle; None as :meth:`Loop.mu_star`."""
     star = loop.mu_star(bits)

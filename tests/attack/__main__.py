@@ -1,7 +1,8 @@
 """The attack at any size: `python -m tests.attack --mutants 100000 --designs 10000`.
 
-Prints the figures and exits 1 if a false certificate was accepted, a verdict was wrong, fewer than 95 % of the true
-mutants were accepted, or 1 % of the verdicts or more were left undecided.
+`--kinds` and `--switched` are the numbers of mutants of certificates of regions and syntheses, and of graphs to switch
+among. Prints the figures and exits 1 if a false certificate was accepted, a verdict was wrong, fewer than 95 % of the
+true mutants were accepted, or 1 % of the verdicts or more were left undecided.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from collections import Counter
 from collections.abc import Iterable
 from functools import partial
 
-from . import handmade_family
+from . import handmade_family, kinds, switched_truth
 from .conftest import WITH_MARGINS
 from .designs import FAMILIES, NAMED
 from .differential import Comparison, compare
@@ -25,6 +26,7 @@ from .handmade_margins import margins
 from .mutants import mutants, sweep
 from .oracle import CLAIMS
 from .strata import design_at
+from .tally import Tally
 
 CHUNK = 250
 
@@ -81,11 +83,35 @@ def attack_checker(scores: Iterable[Score]) -> bool:
     return not faults and total.accepted("true") >= 0.95 * total.total("true")
 
 
+def attack_kind(name: str, tallies: Iterable[Tally]) -> bool:
+    """Print what came of mutants of another kind of certificate; whether all is well."""
+    total = Tally()
+    for tally in tallies:
+        total.add(tally)
+    for fault in total.faults:
+        print(fault)
+    print(
+        f"{name}: {total.mutants} mutants, {total.accepted} accepted, {total.refused} refused, {total.malformed} "
+        f"malformed, {total.true_accepted} of {total.true} true ones accepted, false ones accepted: {len(total.faults)}"
+    )
+    return total.stood
+
+
+def _of_kinds(golden: dict[str, bytes], seed: int, count: int, start: int) -> Tally:
+    return kinds.attack(golden, seed, min(CHUNK, count - start), start)
+
+
+def _of_switched(seed: int, count: int, start: int) -> Tally:
+    return switched_truth.attack(seed, min(CHUNK, count - start), start)
+
+
 def main(arguments: list[str]) -> int:
     """Run the attack; 0 if prover and checker stood it."""
     parser = argparse.ArgumentParser(prog="python -m tests.attack", description=__doc__)
     parser.add_argument("--mutants", type=int, default=2000)
     parser.add_argument("--designs", type=int, default=300)
+    parser.add_argument("--kinds", type=int, default=0)
+    parser.add_argument("--switched", type=int, default=0)
     parser.add_argument("--fields", action="store_true", help="also every edit of every field of each certificate")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=multiprocessing.cpu_count())
@@ -97,6 +123,13 @@ def main(arguments: list[str]) -> int:
             well.append(attack_checker(pool.imap_unordered(drawn, range(0, given.mutants, CHUNK))))
         if given.fields:
             well.append(attack_checker(pool.imap_unordered(_fields, _golden().items())))
+        if given.kinds:
+            made = partial(_of_kinds, kinds.golden(), given.seed, given.kinds)
+            well.append(attack_kind("regions and syntheses", pool.imap_unordered(made, range(0, given.kinds, CHUNK))))
+        if given.switched:
+            drawn_switched = partial(_of_switched, given.seed, given.switched)
+            chunks = range(0, given.switched, CHUNK)
+            well.append(attack_kind("graphs to switch among", pool.imap_unordered(drawn_switched, chunks)))
     return 0 if all(well) else 1
 
 

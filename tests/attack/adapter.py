@@ -76,6 +76,27 @@ def prove_json(design: dict[str, object]) -> bytes:
     return proof.certificate
 
 
+def region_certificate(mapping: dict[str, object]) -> bytes:
+    """What `verify-design region -o` writes for a design."""
+    from fomas_verify.design import design_from_mapping
+    from fomas_verify.region import certificate, find_region
+
+    return certificate(find_region(design_from_mapping(mapping))).encode()
+
+
+def synthesis_certificate(mapping: dict[str, object], objective: str, condition: str) -> bytes:
+    """What `verify-design synthesize --direct -o` writes for a design, in a process of its own."""
+    with tempfile.TemporaryDirectory() as folder:
+        source, target = Path(folder, "design.json"), Path(folder, "best.toml")
+        source.write_text(json.dumps(mapping), encoding="utf-8")
+        options = ["--objective", objective, "--condition", condition, "--direct", "-o", str(target)]
+        run = _run(["-m", "fomas_verify", "synthesize", str(source), *options])
+        written = target.with_suffix(".json")
+        if not written.exists():
+            raise RuntimeError(f"synthesize exited {run.returncode} without a certificate: {run.stderr}")
+        return written.read_bytes()
+
+
 def check_status(certificate: bytes) -> int:
     """The exit status `check` deserves on these bytes; 4 where the checker raises what it must not."""
     from fomas_verify.checker import Malformed, check

@@ -36,6 +36,8 @@ def crossed(names: Sequence[str], trees: Sequence[Obj], random: Random) -> Mutan
     i, j = random.randrange(len(trees)), random.randrange(len(trees))
     tree, other = trees[i], trees[j]
     kind = random.choice(("design", "values", "claims", "claim", "witness", "verdict", "leaf"))
+    if kind in ("claim", "witness", "verdict") and not (tree["claims"] and other["claims"]):
+        kind = "leaf"
     label = f"{names[i]}: {kind} of {names[j]}"
     if kind in ("design", "values", "claims"):
         changed = Obj([(key, other[key] if key == kind else value) for key, value in tree.pairs])
