@@ -41,6 +41,7 @@ COMMANDS = {
     "report": ["report", "paper.toml", "-o", "latex"],
     "report html": ["report", "paper.toml", "-o", "html", "--format", "html"],
     "gate": ["gate", ".", "--jobs", "2", "--junit", "x.xml", "--sarif", "x.sarif"],
+    "sweep": ["sweep", "grid.toml", "-o", "rows", "--jobs", "2", "--plot", "rows.svg", "--x", "gamma", "--y", "h"],
     "init": ["init", "new"],
     "schema": ["schema", "design"],
     "completion": ["completion", "bash"],
