@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from fractions import Fraction
 from pathlib import Path
 
-from benchmarks import simulate, switching
+from benchmarks import simulate, sweep, switching
 from benchmarks.gate import COUNT as GATE_COUNT
 from benchmarks.gate import rows as gate_rows
 from benchmarks.measure import Cost, run, typical
@@ -45,6 +45,7 @@ def rows(folder: Path) -> Iterator[str]:
     yield from horizon_rows()
     yield from (line(*row) for row in simulate.rows())
     yield from (line(*row) for row in gate_rows(GATE_COUNT, 2))
+    yield from (line(*row) for row in sweep.rows())
 
 
 def paper_rows(folder: Path) -> Iterator[str]:

@@ -35,8 +35,8 @@ def on_files(files: Files, config: Any) -> Files:
     """Add what lies outside docs/."""
     for name in PAGES:
         files.append(File.generated(config, name, abs_src_path=str(ROOT / name)))
-    for path in sorted((ROOT / "examples").glob("*.toml")):
-        files.append(File.generated(config, f"examples/{path.name}", abs_src_path=str(path)))
+    for path in sorted((ROOT / "examples").rglob("*.toml")):
+        files.append(File.generated(config, path.relative_to(ROOT).as_posix(), abs_src_path=str(path)))
     for path in sorted((ROOT / "proofs").rglob("*.v")):
         name = path.relative_to(ROOT).as_posix()
         page = COQ.format(name=name, listing=highlight(path.read_text("utf-8"), get_lexer_by_name("coq"), LISTING))

@@ -6,6 +6,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from fomas_verify.checker.edge_list import beside
 from fomas_verify.checker.report import Report, check
 from fomas_verify.checker.statements import STATEMENTS
 from fomas_verify.checker.text import MAX_BYTES, Malformed
@@ -23,7 +24,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = _parser().parse_args(arguments)
     try:
         with Path(options.certificate).open("rb") as file:
-            report = check(file.read(MAX_BYTES + 1))
+            report = check(file.read(MAX_BYTES + 1), opener=beside(Path(options.certificate)))
     except OSError as error:
         return _refuse(f"{options.certificate!a}: {error.strerror}")
     except Malformed as error:

@@ -122,9 +122,9 @@ def _setting(given: dict[str, object], path: str) -> tuple[int, tuple[Edge, ...]
     """The attributes of a `Setting`, in their order."""
     agents = count(given["agents"], f"{path}.agents", 2)
     edges = read_edges(given["edges"], f"{path}.edges", agents)
-    x0 = _state(given["x0"], f"{path}.x0", agents) if "x0" in given else None
+    x0 = read_state(given["x0"], f"{path}.x0", agents) if "x0" in given else None
     plain = "x0" in given and not isinstance(array(given["x0"], f"{path}.x0", "an array")[0], list)
-    return agents, edges, x0, plain, _require(given["require"], f"{path}.require")
+    return agents, edges, x0, plain, read_require(given["require"], f"{path}.require")
 
 
 def read_interval_or(value: object, path: str) -> Number:
@@ -173,7 +173,8 @@ def read_edges(value: object, path: str, agents: int) -> tuple[Edge, ...]:
     return tuple((*pair, edges[pair]) for pair in sorted(edges))
 
 
-def _state(value: object, path: str, agents: int) -> State:
+def read_state(value: object, path: str, agents: int) -> State:
+    """An initial state: a row of one or more rationals for each agent; raises `Malformed`."""
     rows = array(value, path, f"an array of {agents}", agents)
     if not isinstance(rows[0], list):
         return tuple((rational(row, f"{path}[{i}]"),) for i, row in enumerate(rows))
@@ -199,7 +200,8 @@ def read_claim_id(value: object, path: str, seen: list[str]) -> str:
     return value
 
 
-def _require(value: object, path: str) -> tuple[str, ...]:
+def read_require(value: object, path: str) -> tuple[str, ...]:
+    """At least one claim id, none twice; raises `Malformed`."""
     ids: list[str] = []
     for index, entry in enumerate(array(value, path, "an array of claim ids")):
         read_claim_id(entry, f"{path}[{index}]", ids)

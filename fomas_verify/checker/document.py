@@ -1,11 +1,21 @@
 """The certificate as data: its schema, read from parsed JSON with the path of every defect.
 
-Source: docs/certificate-format.md, sections 1 to 4 and 7 to 10.
+Source: docs/certificate-format.md, sections 1 to 4 and 7 to 11.
 """
 
 from dataclasses import dataclass
 
 from fomas_verify.checker.designs import Design, UncertainDesign, read_claim_id, read_design, read_family
+from fomas_verify.checker.large_form import (
+    LargeClaim,
+    LargeDesign,
+    Spectrum,
+    is_large,
+    read_large_claims,
+    read_large_design,
+    read_large_values,
+    read_spectrum,
+)
 from fomas_verify.checker.member_form import MemberWitness, read_member_witness
 from fomas_verify.checker.region_form import Condition, read_conditions
 from fomas_verify.checker.statements import VERDICTS
@@ -41,10 +51,11 @@ class Claim:
 class Document:
     """A certificate of which only the form has been checked."""
 
-    design: Design | UncertainDesign | SwitchedDesign
+    design: Design | UncertainDesign | SwitchedDesign | LargeDesign
     values: tuple[Value, ...]
-    claims: tuple[Claim | Condition | SwitchedClaim | SwitchedCondition, ...]
+    claims: tuple[Claim | Condition | SwitchedClaim | SwitchedCondition | LargeClaim, ...]
     task: Task | None = None
+    spectrum: Spectrum | None = None
 
 
 def read_document(data: bytes) -> Document:
@@ -59,8 +70,12 @@ def read_document(data: bytes) -> Document:
     if isinstance(whole, dict) and "format" in whole:
         # Of another format other keys are expected.
         _literal(whole["format"], "$.format", FORMAT)
-    top = fields(whole, "$", ("format", "kind", "design", "values", "claims", "tool"), ("task",))
+    more = ("scale", "spectrum") if is_large(whole) else ("task",)
+    top = fields(whole, "$", ("format", "kind", "design", "values", "claims", "tool"), more)
     kind = top["kind"]
+    if "scale" in top:
+        _literal(top["scale"], "$.scale", "large")
+        _literal(kind, "$.kind", "design")
     if kind not in ("design", "region", "synthesis"):
         raise expected("$.kind", '"design", "region" or "synthesis"', kind)
     if ("task" in top) != (kind == "synthesis"):
@@ -69,6 +84,8 @@ def read_document(data: bytes) -> Document:
     _literal(tool["name"], "$.tool.name", "fomas_verify")
     if len(string(tool["version"], "$.tool.version")) > 64:
         raise expected("$.tool.version", "at most 64 characters", tool["version"])
+    if "scale" in top:
+        return _large(top)
     if is_switched(top["design"]) and kind in ("design", "region"):
         return _switched(top, of_region=kind == "region")
     if kind == "region":
@@ -89,6 +106,13 @@ def _switched(top: dict[str, object], of_region: bool) -> Document:
         return Document(design, (), read_switched_conditions(top["claims"], "$.claims", design))
     values = read_switched_values(top["values"], "$.values", design.agents)
     return Document(design, values, read_switched_claims(top["claims"], "$.claims", design))
+
+
+def _large(top: dict[str, object]) -> Document:
+    design = read_large_design(top["design"], "$.design")
+    spectrum = read_spectrum(top.get("spectrum", {}), "$.spectrum", design.agents)
+    values = read_large_values(top["values"], "$.values")
+    return Document(design, values, read_large_claims(top["claims"], "$.claims", design.agents), None, spectrum)
 
 
 def _synthesis(top: dict[str, object]) -> Document:

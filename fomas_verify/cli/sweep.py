@@ -69,7 +69,7 @@ def command(
     Started again with the same GRID and DIR after any end, it computes what is missing.
 
     \b
-    Example:  verify-design sweep examples/grid.toml -o rows --plot rows.svg --x gamma --y h
+    Example:  verify-design sweep examples/sweeps/grid.toml -o rows --plot rows.svg --x gamma --y h
     """
     from fomas_verify.sweep.grid import read_grid
     from fomas_verify.sweep.plan import make_plan

@@ -10,17 +10,21 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from fomas_verify.checker import Malformed, Report, check
+from fomas_verify.checker import Malformed, Report, beside, check
 from fomas_verify.exact.errors import FomasError
 
 if TYPE_CHECKING:
+    from fomas_verify.checker.large import Numeric
+    from fomas_verify.checker.large_form import LargeDesign
     from fomas_verify.checker.report import Shortfall
     from fomas_verify.design import Design, SwitchedDesign, UncertainDesign
+    from fomas_verify.network import Digraph
 
 OWN: Final = "design"
 """Stands among required claims for those that the certificate's design itself requires."""
 
 LARGEST: Final = 64 << 20
+MOST_EDGES: Final = 1 << 24
 FALSE, UNDECIDED = 1, 3
 ENDINGS = {0: "Accepted.", FALSE: "Refused.", UNDECIDED: "Not decided within the work allowed."}
 
@@ -39,11 +43,19 @@ def read_certificate(path: Path) -> bytes:
 
 
 def answer_to(
-    certificate: bytes, name: str, meant: Design | UncertainDesign | SwitchedDesign | None, require: tuple[str, ...]
+    certificate: bytes,
+    name: str,
+    meant: Design | UncertainDesign | SwitchedDesign | None,
+    require: tuple[str, ...],
+    path: Path | None = None,
+    numeric: Numeric | None = None,
 ) -> Answer:
-    """Check a certificate, which messages call `name`; raises `CertificateError` where it is none."""
+    """Check a certificate, which messages call `name`; raises `CertificateError` where it is none.
+
+    A large network's edge list lies beside `path`; `numeric` redoes what takes a sparse factor.
+    """
     try:
-        report = check(certificate)
+        report = check(certificate, opener=None if path is None else beside(path), numeric=numeric)
     except Malformed as error:
         raise CertificateError(f"{name}: {error}") from None
     return Answer(report, meant, tuple(dict.fromkeys(_expanded(require, report))))
@@ -132,14 +144,40 @@ def differences(report: Report, meant: Design | UncertainDesign | SwitchedDesign
 
 def _edges(named: Any, meant: Design | UncertainDesign | SwitchedDesign) -> dict[str, tuple[object, object]]:
     """The edges of both, under the key of the user's design; of several digraphs in their order."""
+    from fomas_verify.checker.large_form import LargeDesign
     from fomas_verify.checker.switching_form import SwitchedDesign as Switched
     from fomas_verify.design import SwitchedDesign
 
+    if isinstance(named, LargeDesign):
+        return {
+            "graph": (_digest_of(named), None if isinstance(meant, SwitchedDesign) else _digest(_plain(meant).graph))
+        }
     theirs = [sorted(graph.edges) for graph in (named.graphs if isinstance(named, Switched) else (named,))]
     graphs = meant.graphs if isinstance(meant, SwitchedDesign) else (_plain(meant).graph,)
     key = "graphs" if isinstance(meant, SwitchedDesign) else "edges"
     same_kind = isinstance(named, Switched) == isinstance(meant, SwitchedDesign)
     return {key: (theirs if same_kind else None, [sorted(graph.edges) for graph in graphs])}
+
+
+def _digest_of(named: LargeDesign) -> str:
+    """The digest of the edge list of a large certificate's graph; a family's is that of the graph so called."""
+    from fomas_verify.checker.large_form import EdgeFile
+    from fomas_verify.network import FAMILIES, family
+
+    graph = named.graph
+    if isinstance(graph, EdgeFile):
+        return graph.sha256
+    if graph.edge_count > MOST_EDGES:
+        return ""
+    plain = graph.name in FAMILIES
+    return _digest(family(graph.name, agents=named.agents) if plain else family(graph.name, shape=graph.shape))
+
+
+def _digest(graph: Digraph) -> str:
+    """That of the canonical edge list."""
+    from hashlib import sha256
+
+    return sha256("".join(f"{i} {j} {w}\n" for i, j, w in sorted(graph.edges)).encode()).hexdigest()
 
 
 def _plain(meant: Design | UncertainDesign | SwitchedDesign) -> Design:

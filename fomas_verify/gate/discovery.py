@@ -2,9 +2,9 @@
 
 A file given by name always is one. In a folder, and below it, these are: ``*.design.toml``, ``*.design.json``, and
 .toml and .json files with top-level ``format = "fomas-design/1"``. One with both ``alpha`` and ``graph`` and no such
-mark is refused with the way to mark it, so that no design is passed over in silence. A certificate is none, whatever
-its name: `gate -o` writes ``x.design.json`` of x.design.toml. Nor is the grid of a sweep, told by its table [grid].
-Links to folders and hidden folders are not entered.
+mark is refused with the way to mark it, so that no design is passed over in silence. A table [grid] makes it a grid,
+which only `sweep` takes. A certificate is none, whatever
+its name: `gate -o` writes ``x.design.json`` of x.design.toml. Links to folders and hidden folders are not entered.
 """
 
 from __future__ import annotations
@@ -119,8 +119,8 @@ def _judge(path: Path) -> Found:
         return path if MARK in text or _KEYS.search(text) else Skipped(source, "cannot be parsed, and has no mark")
     if str(top.get("format", "")).startswith(f"{MARK}/"):
         return path
-    if isinstance(top.get("grid"), dict):
-        return Skipped(source, "a grid of designs, which sweep decides")
+    if "grid" in top:
+        return Skipped(source, "a grid for sweep")
     if "alpha" in top and ("graph" in top or "graphs" in top):
         return _refused(path, HOW_TO_MARK.format(path.suffix.lower()))
     return Skipped(source, "no alpha and no graph at its top level")

@@ -16,7 +16,7 @@ FINE, FINEST, BEYOND = 26, 60, (1, 2, 4, 8, 16, 32, 64)
 """The ends of what is known are about 2^-26 of alpha apart, or 2^-60; where a slab does not tell, up to 65
 times that."""
 
-MOST_STEPS, MOST_PARTS = 1 << 10, 1 << 9
+MOST_STEPS, MOST_PARTS = 1 << 10, 3 << 9
 """Bounds on the parts tried on the way out, and on those of each side halved again: a reader may use 2^12."""
 
 

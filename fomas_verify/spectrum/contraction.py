@@ -17,6 +17,7 @@ from fomas_verify.exact import matrix as exact
 from fomas_verify.exact.numberfield import RealField, is_semidefinite, quadratic_in_theta
 from fomas_verify.exact.polynomial import Polynomial, irreducible_factors, scaled_roots
 from fomas_verify.spectrum.loop import Loop, decrease, least_decrease
+from fomas_verify.spectrum.remembered import of_graph
 
 FIELD_WORK = 1_000_000
 """Bound on ``degree^2 N^3`` for elimination over Q(lambda2)."""
@@ -68,6 +69,7 @@ class Lambda2Root:
     upper: Fraction
 
 
+@of_graph
 def lambda2_root(loop: Loop, bits: int) -> Lambda2Root | None:
     """lambda2 exactly; None where the precision does not tell its irreducible factor."""
     target = loop.lambda2(bits)

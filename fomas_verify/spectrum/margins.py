@@ -30,7 +30,7 @@ FINE = 72
 STABILITY_GAPS = (26, 18, 12, 8, 5, 3)
 """The same for mu*, tried in turn: a Lyapunov form grows as its matrix nears the circle."""
 
-LYAPUNOV_PRECISIONS, LYAPUNOV_WORK = (128, 512), 1 << 35
+LYAPUNOV_PRECISIONS, LYAPUNOV_WORK = (128, 512, 1024), 1 << 35
 """The bits at which a form is sought, and a bound on ``N^3 bits^2`` for all but the first."""
 
 POWER_WORK = 1 << 33

@@ -71,11 +71,14 @@ class Samples:
     """The samples of one loop at one precision; the caller holds the working precision."""
 
     def __init__(self, loop: Loop, bits: int, box: Box | None = None) -> None:
-        """Enclose P and the first coefficients of the resolvent, over a box where one is given."""
-        box = box or Box(Interval.exactly(loop.design.alpha), loop.mu(bits))
-        self.alpha, self._bits = box.alpha, bits
+        """Enclose P and the first coefficients of the resolvent, over a box where one is given.
+
+        P is enclosed over twice the box's part of mu: a checker that bounds errors by norms needs that room.
+        """
+        mu = loop.mu(bits) if box is None else Interval(box.mu.mid - box.mu.width, box.mu.mid + box.mu.width)
+        self.alpha, self._bits = Interval.exactly(loop.design.alpha) if box is None else box.alpha, bits
         self.limit = sample_limit(loop)
-        self.perron = perron_matrix(loop.laplacian, box.mu)
+        self.perron = perron_matrix(loop.laplacian, mu)
         self.identity = ball_identity(self.perron.nrows())
         self._center = centering(self.perron.nrows())
         self._resolvent = resolvent_over(self.alpha, 64, bits)

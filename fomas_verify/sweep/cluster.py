@@ -85,7 +85,9 @@ def _client(address: str) -> Iterator[Any]:
         raise SweepError(
             f"--scheduler needs {error.name}, which the extra `sweep` brings: pip install 'fomas_verify[sweep]'"
         ) from None
-    logging.getLogger("distributed").setLevel(logging.CRITICAL)
+    for name in ("distributed", *logging.Logger.manager.loggerDict):
+        if name.partition(".")[0] == "distributed":  # each has a level of its own
+            logging.getLogger(name).setLevel(logging.CRITICAL + 1)
     # Asked first, apart from the client, which waits for an answer for long when it is given up.
     try:
         identity = asyncio.run(asyncio.wait_for(_identity(address), REACHED_WITHIN))

@@ -75,5 +75,5 @@ def in_flight(
         if not done:
             look()
         for future in done:
-            going = going and not isinstance(future.exception(), BrokenExecutor)
+            going = going and not (future.cancelled() or isinstance(future.exception(), BrokenExecutor))
             yield running.pop(future), future

@@ -162,7 +162,7 @@ def _graphs(swept: Mapping[str, object], base: Mapping[str, object], place: Plac
     }
     graphs: list[GraphKeys] = []
     for family in found.get("family", (given.get("family"),)):
-        size = "shape" if family in SHAPED_FAMILIES else "agents"
+        size = "shape" if isinstance(family, str) and family in SHAPED_FAMILIES else "agents"
         named = {"family": family} if "family" in found else {}
         graphs += [{**named, size: value} for value in found[size]] if size in found else [named]
     return tuple(graphs)

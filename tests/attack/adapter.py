@@ -97,6 +97,16 @@ def synthesis_certificate(mapping: dict[str, object], objective: str, condition:
         return written.read_bytes()
 
 
+def coq_text(mapping: dict[str, object]) -> str:
+    """The Coq file that `verify-design prove --coq` writes for a design."""
+    from fomas_verify.certificate.coq import coq_file
+    from fomas_verify.design import design_from_mapping
+    from fomas_verify.prover import prove as decide
+
+    proof = decide(design_from_mapping(mapping))
+    return coq_file(proof.loop, proof.decisions).text
+
+
 def check_status(certificate: bytes) -> int:
     """The exit status `check` deserves on these bytes; 4 where the checker raises what it must not."""
     from fomas_verify.checker import Malformed, check

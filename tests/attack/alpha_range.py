@@ -111,7 +111,7 @@ def _sigma(design: Design, gain: Any, fine: bool) -> Span:
     if fine:
         basis = oracle._orthonormal_basis(design.agents)
         p = basis - gain * (mp.matrix([[oracle.real(x) for x in row] for row in laplacian(design)]) * basis)
-        size = max(mp.svd(p, compute_uv=False))
+        size = oracle.largest_singular_value(p)
         return size, size
     lap, centre = _floats(design)
     size = mp.mpf(float(np.linalg.norm(centre - float(gain) * lap @ centre, 2)))

@@ -75,6 +75,11 @@ def start_of(design: Design, x0: tuple[tuple[Fraction, ...], ...] | None) -> Sta
     return Start(columns / np.linalg.norm(columns), "fro")
 
 
+def _norm(a: Any, order: Any) -> float:
+    """The norm of a matrix in floats; infinite where it has outgrown them."""
+    return float(np.linalg.norm(a, order)) if np.isfinite(a).all() else np.inf
+
+
 class Loop:
     """c_n, norm P^n, norm(P^n S) and norm(Phi_k S) at one alpha and mu, in floats."""
 
@@ -88,15 +93,15 @@ class Loop:
         self.powers, self.moved, self.controls = [1.0], [1.0], [1.0]
         for k in range(1, last + 1):
             power = p @ power
-            self.powers.append(np.linalg.norm(power, 2))
+            self.powers.append(_norm(power, 2))
             if start.columns is None:
                 continue
             moved = p @ moved
-            self.moved.append(np.linalg.norm(moved, start.order))
+            self.moved.append(_norm(moved, start.order))
             if k <= samples:
                 r.append(float(np.dot(falls[:k], r[::-1])))
                 control = p @ control + r[k] * start.columns
-                self.controls.append(np.linalg.norm(control, start.order))
+                self.controls.append(_norm(control, start.order))
 
 
 def _margins(design: Design, witness: Witness, start: Start, alpha: float, gain: float, least: float) -> Any:

@@ -38,11 +38,20 @@ class Score:
         return self.counts[word, 0]
 
 
+def _word(mutant: Mutant) -> str:
+    """What the mutant deserves; where the oracle itself fails, that is said and it counts as unknown."""
+    try:
+        return judge(mutant.data).word
+    except Exception as error:
+        print(f"the oracle failed: {mutant.label}: {type(error).__name__}: {error}")
+        return "unknown"
+
+
 def duel(mutants: Iterable[Mutant]) -> Score:
     """Judge each mutant and have it checked."""
     score = Score()
     for mutant in mutants:
-        word, status = judge(mutant.data).word, check_status(mutant.data)
+        word, status = _word(mutant), check_status(mutant.data)
         score.counts[word, status] += 1
         if status not in ALLOWED[word]:
             score.wrong.append((word, status, mutant))

@@ -92,13 +92,24 @@ def lambda2(design: Design, dps: int) -> Any:
         return min(mp.eigsy((form + form.T) / 2, eigvals_only=True))
 
 
+def largest_singular_value(a: Any) -> Any:
+    """The 2-norm of a matrix at the working precision; by `a^T a` with twice the digits where mpmath's QR iteration
+    does not converge.
+    """
+    try:
+        return max(mp.svd(a, compute_uv=False))
+    except RuntimeError:
+        with mp.workdps(2 * mp.dps + 10):
+            return mp.sqrt(max(mp.eigsy(a.T * a, eigvals_only=True)))
+
+
 @lru_cache(maxsize=4096)
 def sigma(design: Design, dps: int) -> Any:
     """The largest singular value of P on 1perp."""
     with mp.workdps(dps + 10):
         v = _orthonormal_basis(design.agents)
         p = v - mu(design, dps + 10) * (_real_matrix(laplacian(design)) * v)
-        return max(mp.svd(p, compute_uv=False))
+        return largest_singular_value(p)
 
 
 def beta(design: Design, dps: int) -> Any:

@@ -11,7 +11,7 @@ from .adapter import command_line_proof, prove
 from .designs import KNOWN, NAMED, NORM_BOUNDS
 from .differential import Comparison, compare
 from .oracle import CLAIMS
-from .strata import STRATA, designs
+from .strata import STRATA, design_at, designs
 from .test_oracle import UNKNOWN
 
 pytestmark = pytest.mark.slow
@@ -61,3 +61,8 @@ def test_the_strata_take_turns():
     names = [name for name, _ in designs(0, len(STRATA))]
     assert [name.rsplit(" ", 1)[0] for name in names] == list(STRATA)
     assert list(designs(3, 24)) == list(designs(3, 24))
+
+
+@pytest.mark.parametrize(("seed", "index"), [(2, 297), (3, 101), (3, 38)])
+def test_margins_close_in_where_slack_is_small_and_where_eigenvalues_are_defective(seed, index):
+    assert compare(*design_at(seed, index)).faults == ()

@@ -178,3 +178,12 @@ def test_signs_at_the_square_root_of_two():
 def test_semidefiniteness_at_an_algebraic_number(shift, expected):
     root = Root((F(-2), F(0), F(1)), F(0), F(3))
     assert is_psd_at(lambda x: [[x + shift, F(1)], [F(1), x / 2]], 1, root) is expected
+
+
+def test_sigma_where_the_singular_values_do_not_converge() -> None:
+    """A star of 7 agents with weight 2 has the eigenvalues 2 (five times) and 14; near mu = 1/8 both ends agree."""
+    mu = F(24999999999999999999, 200000000000000000000)
+    star = tuple(edge for i in range(2, 8) for edge in ((1, i, F(2)), (i, 1, F(2))))
+    with mp.workdps(60):
+        expected = max(abs(1 - oracle.real(2 * mu)), abs(1 - oracle.real(14 * mu)))
+        assert abs(oracle.sigma(Design(F(9, 10), 7, star, mu=mu), 72) - expected) < mp.mpf(10) ** -58

@@ -21,6 +21,7 @@ FILES = {
     "start.toml": 'alpha = 0.9\ngamma = 0.2\nh = 0.85\nx0 = [1, 2, 4]\n[graph]\nfamily = "complete"\nagents = 3\n',
     "shut.toml": 'alpha = 0.5\n[graph]\nfamily = "directed-cycle"\nagents = 5\n',
     "steps.toml": 'gate.require = ["beta-contraction"]\nalpha = 0.9\ngraph = {family = "directed-cycle", agents = 3}\n',
+    "grid.toml": 'mu = 0.2\n[graph]\nfamily = "complete"\nagents = 3\n[grid]\nalpha = [0.5, 0.9]\n',
     "broken.toml": "alpha = 2\n",
     "broken.json": "{",
     "designs/a.design.toml": 'name = "a"\nalpha = 0.9\nmu = 0.2\n[graph]\nfamily = "complete"\nagents = 4\n',
@@ -50,6 +51,7 @@ SYNTHESIZE = CRASH + "import_module('fomas_verify.api.synthesizing').synthesize 
 REFUSAL = """tasks = import_module('fomas_verify.checker.tasks')
 def refuse(*a): raise import_module('fomas_verify.checker.ruling').Refused('no')
 import_module('fomas_verify.checker.report').require_task_claim = refuse"""
+SWEEP = CRASH + "import_module('fomas_verify.sweep.plan').make_plan = crash"
 INIT = CRASH + "import_module('fomas_verify.cli.init').write_whole = crash"
 SCHEMA = CRASH + "import_module('fomas_verify.cli.schema').files = crash"
 COMPLETION = CRASH + "import_module('fomas_verify.cli.completion').get_completion_class = crash"
@@ -135,6 +137,18 @@ TABLE: dict[str, dict[int, list[tuple[str, str]]]] = {
         3: [("gate -j 1 good.toml large.toml", "")],
         4: [("gate false.toml good.toml broken.toml", THRESHOLD)],
         130: [("gate good.toml", INTERRUPT.format("gate.discovery", "find_designs"))],
+    },
+    "sweep": {
+        0: [("sweep grid.toml -o rows", "")],
+        2: [
+            ("sweep good.toml", ""),
+            ("sweep broken.toml", ""),
+            ("sweep grid.toml --max-rows 1", ""),
+            ("sweep grid.toml --claims x", ""),
+            ("sweep", ""),
+        ],
+        4: [("sweep grid.toml", SWEEP)],
+        130: [("sweep grid.toml", INTERRUPT.format("sweep.plan", "make_plan"))],
     },
     "init": {
         0: [("init new", "")],

@@ -23,8 +23,7 @@ SAYS = {
     "ring10": (["memory-inequality", "average-consensus"], []),
     "unbalanced": (["gain-bound", "perron-eigenvalues"], ["graph-assumption"]),
 }
-GRIDS = {"grid"}
-NAMES = sorted(path.stem for path in EXAMPLES.glob("*.toml") if path.stem not in GRIDS)
+NAMES = sorted(path.stem for path in EXAMPLES.glob("*.toml"))
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -46,7 +45,7 @@ def test_an_example_is_what_it_says(name: str) -> None:
     ("name", "arguments"),
     [
         (path.stem, line.split())
-        for path in sorted(EXAMPLES.glob("*.toml"))
+        for path in sorted(EXAMPLES.rglob("*.toml"))
         for line in re.findall(r"^#.*?verify-design ([^`\n]+)", path.read_text("utf-8"), re.MULTILINE)
     ],
 )
@@ -57,12 +56,6 @@ def test_a_command_that_an_example_shows(name: str, arguments: list[str], tmp_pa
     done = start(*arguments)
     assert done.returncode == 0, done.stderr
     assert ("-o" in arguments) == any(tmp_path.iterdir())
-
-
-def test_every_grid_is_swept() -> None:
-    """By the command that its comment shows, above."""
-    for name in GRIDS:
-        assert f"verify-design sweep examples/{name}.toml" in (EXAMPLES / f"{name}.toml").read_text("utf-8")
 
 
 def start(*arguments: str) -> subprocess.CompletedProcess[str]:

@@ -57,16 +57,6 @@ def test_a_certificate_is_no_design_whatever_its_name(tmp_path: Path, space: str
     assert found(tmp_path) == (["a.design.json", "a.design.toml"], [], [])
 
 
-def test_the_grid_of_a_sweep_is_no_design_and_is_named(tmp_path: Path) -> None:
-    write(tmp_path, a__toml=f"{DESIGN}[grid]\nh = [1, 2]\n")
-    assert found(tmp_path) == ([], [], ["a.toml"])
-    assert why(tmp_path) == "a grid of designs, which sweep decides"
-    write(tmp_path, a__toml=f"grid = 1\n{DESIGN}")
-    assert found(tmp_path) == ([], ["a.toml"], [])
-    write(tmp_path, a__toml=f"{MARK}{DESIGN}[grid]\nh = [1, 2]\n")
-    assert found(tmp_path) == (["a.toml"], [], [])
-
-
 def test_a_file_given_by_name_is_a_design_whatever_it_is(tmp_path: Path) -> None:
     write(tmp_path, notes__txt="x", x__toml="", y__json="[]")
     paths = [tmp_path / name for name in ("y.json", "notes.txt", "x.toml", "missing")]
@@ -183,3 +173,9 @@ def test_a_name_that_is_no_text_is_quoted(tmp_path: Path) -> None:
     (entry,) = find_designs([tmp_path])
     assert isinstance(entry, Skipped)
     assert entry.source.isprintable()
+
+
+def test_a_grid_is_passed_over_and_named(tmp_path: Path) -> None:
+    write(tmp_path, x__toml=DESIGN + "[grid]\nh = [1, 2]\n")
+    assert found(tmp_path) == ([], [], ["x.toml"])
+    assert why(tmp_path) == "a grid for sweep"

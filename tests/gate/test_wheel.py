@@ -45,9 +45,9 @@ def test_the_gate_passes_on_the_examples(environment: Path, checkout: Path, tmp_
     shutil.copytree(checkout / "examples", tmp_path / "examples")
     files = [x for kind in ("junit", "sarif", "markdown") for x in (f"--{kind}", kind)]
     done = run(environment / "verify-design", "gate", "examples", "--jobs", 2, *files, cwd=tmp_path)
-    count = sum("[grid]" not in path.read_text("utf-8") for path in (tmp_path / "examples").glob("*.toml"))
+    count = len(list((tmp_path / "examples").glob("*.toml")))
     assert (done.returncode, done.stderr) == (0, "")
-    assert f"{count} designs: {count} pass" in done.stdout.splitlines()
+    assert done.stdout.splitlines()[-1] == f"{count} designs: {count} pass"
     assert all((tmp_path / kind).stat().st_size for kind in files[1::2])
 
 

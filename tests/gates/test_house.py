@@ -37,6 +37,7 @@ def test_green_on_the_tree(copy: Path, gate) -> None:
         ("prover", "import fomas_verify.report", "house"),
         ("report", "import fomas_verify.cli", "house"),
         ("gate", "import fomas_verify.report", "house"),
+        ("sweep", "import fomas_verify.gate", "house"),
         ("gate", "def late():\n    import fomas_verify.cli", "house"),
         ("cli", "import fomas_verify._entry", "house"),
         ("checker", "import fomas_verify.exact", "house"),

@@ -51,7 +51,7 @@ COMMANDS = {
 
 @pytest.fixture
 def designs(tmp_path: Path) -> Path:
-    for path in (ROOT / "examples").glob("*.toml"):
+    for path in (ROOT / "examples").rglob("*.toml"):
         (tmp_path / path.name).write_bytes(path.read_bytes())
     graph = ROOT / "tests" / "network" / "files" / "paper.graphml"
     (tmp_path / graph.name).write_bytes(graph.read_bytes())

@@ -22,10 +22,8 @@ HEARS: Final = "hears"
 BOTH_WAYS: Final = "both-ways"
 ORIENTATIONS: Final = (FROM_TO, HEARS, BOTH_WAYS)
 
-MOST_AGENTS: Final = 20_000_000
-"""A matrix says how many rows it has, whether or not there is anything in them."""
-
 ROUND_OFF: Final = Fraction(1, 10**12)
+MAX_AGENTS: Final = 1 << 22  # a header of one line must not ask for more memory than its file could fill
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,9 +62,10 @@ def assemble(entries: Entries, orientation: str, name: str) -> SparseDigraph:
     """The digraph; raises `GraphFileError` where the entries are none, or are balanced but for round-off."""
     import numpy as np
 
-    if not 2 <= entries.agents <= MOST_AGENTS:
-        bound = "at least 2 agents" if entries.agents < 2 else f"at most {MOST_AGENTS} agents"
-        raise refused(name, bound, str(entries.agents))
+    if entries.agents < 2:
+        raise refused(name, "at least 2 agents", str(entries.agents))
+    if entries.agents > MAX_AGENTS:
+        raise refused(name, f"at most {MAX_AGENTS} agents", str(entries.agents))
     numerators, denominator = _numerators(entries, name)
     _refuse_outside(entries, name)
     signs = np.fromiter(((x > 0) - (x < 0) for x in numerators), np.int8, len(numerators))[entries.codes]

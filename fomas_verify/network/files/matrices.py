@@ -71,5 +71,8 @@ def _sparse(matrix: Any, name: str) -> tuple[Any, Any, Any]:
             matrix.check_format(full_check=True)
         except ValueError as error:
             raise refused(name, "a sparse matrix that is whole", f"a damaged one: {error}") from None
+    # scipy does not look between its ends where the last pointer says that nothing is stored.
+    if hasattr(matrix, "indptr") and (matrix.indptr[1:] < matrix.indptr[:-1]).any():
+        raise refused(name, "a sparse matrix that is whole", "a damaged one: its pointers decrease")
     entries = matrix.tocoo()
     return entries.row.astype(np.int64), entries.col.astype(np.int64), np.ascontiguousarray(entries.data)

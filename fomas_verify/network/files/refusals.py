@@ -105,11 +105,18 @@ def lies(path: Path, name: str, expected: str, reason: str = "") -> GraphFileErr
     return refused(name, expected, kind or (f"something else: {excerpt(words)}" if words else "something else"))
 
 
+def damaged(path: Path, name: str, expected: str, kind: str, reason: str) -> GraphFileError:
+    """The refusal of a file that begins as a sound one does, `kind`, and is not; of any other as `lies` says."""
+    if begins_like(path) == kind:
+        return refused(name, f"{expected} that is whole", f"a damaged one: {excerpt(reason)}")
+    return lies(path, name, expected, reason)
+
+
 @contextmanager
 def reading(path: Path, name: str, expected: str, kind: str) -> Iterator[None]:
     """Turn whatever a library raises or warns of while it reads into one refusal.
 
-    `kind` is what `begins_like` says of a sound file; such a file is called damaged, any other is named by what it is.
+    `kind` is what `begins_like` says of a sound file.
     """
     try:
         with warnings.catch_warnings():
@@ -122,9 +129,7 @@ def reading(path: Path, name: str, expected: str, kind: str) -> Iterator[None]:
         raise refused(name, expected, "one that asks for more memory than there is") from None
     except Exception as error:  # a damaged file can make a library raise anything
         words = " ".join(f"{error}".split()) or type(error).__name__
-        if begins_like(path) == kind:
-            raise refused(name, f"{expected} that is whole", f"a damaged one: {excerpt(words)}") from None
-        raise lies(path, name, expected, words) from None
+        raise damaged(path, name, expected, kind, words) from None
 
 
 def name_of(path: str | PathLike[str]) -> str:
