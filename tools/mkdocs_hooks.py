@@ -20,7 +20,6 @@ ROOT = Path(__file__).resolve().parent.parent
 PAGES = ("CHANGELOG.md", "CONTRIBUTING.md", "SECURITY.md", "proofs/README.md")
 LINK = re.compile(r"(?<!!)\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^()\s]+)\)")
 FENCE = re.compile(r"^(```+).*?^\1$", re.MULTILINE | re.DOTALL)
-MODULE = re.compile(r"^::: (fomas_verify[\w.]*)$", re.MULTILINE)
 LISTING = HtmlFormatter(linenos="inline", lineanchors="L", anchorlinenos=True)
 COQ = """---
 search:
@@ -36,8 +35,8 @@ def on_files(files: Files, config: Any) -> Files:
     """Add what lies outside docs/."""
     for name in PAGES:
         files.append(File.generated(config, name, abs_src_path=str(ROOT / name)))
-    for path in sorted((ROOT / "examples").glob("*.toml")):
-        files.append(File.generated(config, f"examples/{path.name}", abs_src_path=str(path)))
+    for path in sorted((ROOT / "examples").rglob("*.toml")):
+        files.append(File.generated(config, path.relative_to(ROOT).as_posix(), abs_src_path=str(path)))
     for path in sorted((ROOT / "proofs").rglob("*.v")):
         name = path.relative_to(ROOT).as_posix()
         page = COQ.format(name=name, listing=highlight(path.read_text("utf-8"), get_lexer_by_name("coq"), LISTING))
@@ -48,7 +47,6 @@ def on_files(files: Files, config: Any) -> Files:
 def on_page_markdown(markdown: str, page: Any, files: Files, **_: Any) -> str:
     """Turn links of the repository into links of the site; what the site does not hold keeps its words only."""
     source = page.file.src_uri
-    markdown = MODULE.sub(lambda match: match[0] if _exists(match[1]) else "", markdown)
     folder = posixpath.dirname(source if source in PAGES else f"docs/{source}")
     known = {file.src_uri for file in files}
 
@@ -80,8 +78,3 @@ def site_path(path: str, known: set[str]) -> str | None:
         if name in known:
             return name
     return None
-
-
-def _exists(module: str) -> bool:
-    path = ROOT.joinpath(*module.split("."))
-    return path.is_dir() or path.with_suffix(".py").is_file()

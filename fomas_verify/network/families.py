@@ -8,10 +8,13 @@ numbered row by row, grid and torus. Source: the table of the README.
 from collections.abc import Callable, Iterable, Iterator
 from fractions import Fraction
 from itertools import combinations
+from typing import Final
 
 from fomas_verify.network.digraph import Digraph, GraphError, digraph
 
 Shape = tuple[int, int]
+
+MOST_COMPLETE: Final = 512  # agents; three lines of a design must not ask for a hundred million edges
 
 _ONE = Fraction(1)
 
@@ -64,6 +67,8 @@ def _star(agents: int) -> Digraph:
 
 
 def _complete(agents: int) -> Digraph:
+    if agents > MOST_COMPLETE:
+        raise GraphError(f"expected at most {MOST_COMPLETE} agents in a complete graph, got {agents}")
     return _both_ways(agents, combinations(range(1, agents + 1), 2))
 
 

@@ -45,8 +45,8 @@ def test_an_example_is_what_it_says(name: str) -> None:
     ("name", "arguments"),
     [
         (path.stem, line.split())
-        for path in sorted(EXAMPLES.glob("*.toml"))
-        for line in re.findall(r"^#\s+verify-design (.+)$", path.read_text("utf-8"), re.MULTILINE)
+        for path in sorted(EXAMPLES.rglob("*.toml"))
+        for line in re.findall(r"^#.*?verify-design ([^`\n]+)", path.read_text("utf-8"), re.MULTILINE)
     ],
 )
 def test_a_command_that_an_example_shows(name: str, arguments: list[str], tmp_path: Path) -> None:

@@ -95,6 +95,7 @@ def test_a_broken_link_breaks_the_build(tmp_path: Path) -> None:
 
 def test_references_are_complete(site: Path) -> None:
     """Each command with its options, each public name with its docstring."""
+    import fomas_verify.api
     import fomas_verify.simulate
 
     commands = (site / "reference" / "cli.html").read_text("utf-8")
@@ -102,10 +103,10 @@ def test_references_are_complete(site: Path) -> None:
         assert f'id="verify-design-{name}"' in commands or f'id="{name}"' in commands, name
     assert "--baseline CERTDIR" in commands
     names = (site / "reference" / "api.html").read_text("utf-8")
-    for name in fomas_verify.simulate.__all__:
-        if name.isupper():
-            continue
-        assert f'id="fomas_verify.simulate.{name}"' in names, name
+    for module in (fomas_verify.api, fomas_verify.simulate):
+        for name in module.__all__:
+            assert name.isupper() or f'id="{module.__name__}.{name}"' in names, name
+    assert 'id="fomas_verify.api.Proof.save"' in names
 
 
 def test_links_to_proofs_lead_to_their_lines(site: Path) -> None:

@@ -62,6 +62,7 @@ def test_lattices_row_by_row(name: str, rows: int, columns: int) -> None:
     ("name", "size", "reason"),
     [
         ("path", {"agents": 1}, "expected at least 2 agents, got 1"),
+        ("complete", {"agents": 513}, "expected at most 512 agents in a complete graph, got 513"),
         ("hypercube", {"agents": 0}, "expected at least 2 agents, got 0"),
         ("grid", {"shape": (1, 1)}, "expected at least 1 row, 1 column and 2 agents for a grid, got [1, 1]"),
         ("grid", {"shape": (0, 3)}, "expected at least 1 row, 1 column and 2 agents for a grid, got [0, 3]"),

@@ -41,6 +41,7 @@ COMMANDS = {
     "report": ["report", "paper.toml", "-o", "latex"],
     "report html": ["report", "paper.toml", "-o", "html", "--format", "html"],
     "gate": ["gate", ".", "--jobs", "2", "--junit", "x.xml", "--sarif", "x.sarif"],
+    "sweep": ["sweep", "grid.toml", "-o", "rows", "--jobs", "2", "--plot", "rows.svg", "--x", "gamma", "--y", "h"],
     "init": ["init", "new"],
     "schema": ["schema", "design"],
     "completion": ["completion", "bash"],
@@ -50,7 +51,7 @@ COMMANDS = {
 
 @pytest.fixture
 def designs(tmp_path: Path) -> Path:
-    for path in (ROOT / "examples").glob("*.toml"):
+    for path in (ROOT / "examples").rglob("*.toml"):
         (tmp_path / path.name).write_bytes(path.read_bytes())
     graph = ROOT / "tests" / "network" / "files" / "paper.graphml"
     (tmp_path / graph.name).write_bytes(graph.read_bytes())
