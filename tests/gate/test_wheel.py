@@ -47,7 +47,7 @@ def test_the_gate_passes_on_the_examples(environment: Path, checkout: Path, tmp_
     done = run(environment / "verify-design", "gate", "examples", "--jobs", 2, *files, cwd=tmp_path)
     count = len(list((tmp_path / "examples").glob("*.toml")))
     assert (done.returncode, done.stderr) == (0, "")
-    assert done.stdout.splitlines()[-1] == f"{count} designs: {count} pass"
+    assert f"{count} designs: {count} pass" in done.stdout.splitlines()
     assert all((tmp_path / kind).stat().st_size for kind in files[1::2])
 
 
