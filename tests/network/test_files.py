@@ -362,3 +362,11 @@ def test_numbers_read_fast_are_those_that_python_reads() -> None:
             accepted += 1
             assert Fraction(text) == Fraction(numerator, denominator)
     assert 2_000 < accepted < 18_000
+
+
+@pytest.mark.parametrize(("largest", "smallest"), [("1e300", "1e-20"), ("1e1000", "1")])
+def test_weights_beyond_floats(tmp_path: Path, largest: str, smallest: str) -> None:
+    """Over their common denominator, and by themselves."""
+    (tmp_path / "a.edgelist").write_text(f"1 2 {largest}\n2 1 {smallest}\n")
+    expected = digraph(2, [(1, 2, Fraction(largest)), (2, 1, Fraction(smallest))])
+    assert read_graph_file(tmp_path / "a.edgelist").graph.to_digraph() == expected

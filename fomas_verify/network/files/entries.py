@@ -97,10 +97,10 @@ def refuse_round_off(graph: SparseDigraph, name: str) -> None:
     import numpy as np
 
     in_, out = degrees(graph)
-    # In floats first: most imbalances are far above it.
-    suspects = (in_ != out) & (
-        np.abs(in_ - out).astype(float) < float(2 * ROUND_OFF) * np.maximum(in_, out).astype(float)
-    )
+    imbalance, largest = np.abs(in_ - out), np.maximum(in_, out)
+    if imbalance.dtype != object:  # in floats first, which have room for what is multiplied
+        imbalance, largest = imbalance.astype(float), largest.astype(float) * 2
+    suspects = (imbalance > 0) & (imbalance * ROUND_OFF.denominator < largest)
     for agent in np.flatnonzero(suspects).tolist():
         heard, hears = int(in_[agent]), int(out[agent])
         share = Fraction(abs(heard - hears), max(heard, hears))
