@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from os import PathLike
 from pathlib import Path
@@ -10,17 +11,17 @@ from typing import NoReturn
 Cells = Sequence[Sequence[str]]
 
 
-class Result:
+class Result(ABC):
     """A result; it has no truth value, since "not proved" and "false" differ: ask `exit_status` or a verdict."""
 
     @property
+    @abstractmethod
     def exit_status(self) -> int:
         """What the command ends with: 0 proved or done, 1 refuted or inapplicable, 3 undecided."""
-        raise NotImplementedError
 
+    @abstractmethod
     def _table(self) -> tuple[str, Cells]:
         """A title, and rows of cells in plain sentences, the first row the head."""
-        raise NotImplementedError
 
     def __bool__(self) -> NoReturn:
         raise TypeError("a result has no truth value: ask its exit_status or its verdicts")
@@ -40,9 +41,9 @@ class Certified(Result):
     """A result with a certificate, which `check` and ``verify-design check`` test."""
 
     @property
+    @abstractmethod
     def certificate(self) -> str:
         """The certificate's canonical text."""
-        raise NotImplementedError
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write the certificate; whole or not at all."""

@@ -7,6 +7,7 @@ trusted.
 from __future__ import annotations
 
 from fractions import Fraction
+from typing import Any
 
 from fomas_verify.enclosure.interval import Interval
 from fomas_verify.exact.errors import FomasError
@@ -50,10 +51,11 @@ def approx_memory(alpha: Fraction, j: int, digits: int) -> tuple[Fraction, Fract
         return _to_fraction(ahead - 2 * here + behind), _to_fraction(ahead - here)
 
 
-def _to_fraction(x: object) -> Fraction:
+def _to_fraction(x: Any) -> Fraction:
+    """The number of mpmath, which has no types."""
     import mpmath
 
-    p, q = mpmath.libmp.to_rational(x._mpf_)  # type: ignore[attr-defined]  # mpmath has no types
+    p, q = mpmath.libmp.to_rational(x._mpf_)
     return Fraction(int(p), int(q))
 
 

@@ -181,4 +181,5 @@ def _first_design(grid: Grid) -> Design:
 
 def at_row(design: Design, numbers: Mapping[str, Fraction]) -> Design:
     """A design with these numbers in place of its own."""
-    return replace(design, **numbers)  # type: ignore[arg-type]
+    given: dict[str, Any] = dict(numbers)
+    return replace(design, **given)

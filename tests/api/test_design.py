@@ -95,7 +95,7 @@ def test_every_key_of_a_design_file() -> None:
         limits={"h": (0.1, 2), "u_max": 3},
     )  # fmt: skip
     assert (design.name, design.agents, design.alpha) == ("plant", 4, (Fraction(22, 25), Fraction(23, 25)))
-    least = design.exact.least  # type: ignore[union-attr]
+    least = design.exact.least
     assert (least.x0[3], least.require) == ((7, Fraction(17, 2)), ("gain-bound",))
     assert (least.limits.h, least.limits.u_max) == ((Fraction(1, 10), 2), 3)
     assert Design(alpha="1/2", graph="torus", shape=(3, 4)).agents == 12
@@ -103,7 +103,7 @@ def test_every_key_of_a_design_file() -> None:
 
 def test_graphs_to_switch_among() -> None:
     design = Design(alpha=0.9, mu=0.1, graphs=[np.array(A), np.array(A).T], orientation="hears")
-    assert len(design.exact.graphs) == 2  # type: ignore[union-attr]
+    assert len(design.exact.graphs) == 2
 
 
 def test_it_is_read_and_written(tmp_path: Path, checkout: Path) -> None:

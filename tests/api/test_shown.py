@@ -47,7 +47,7 @@ def test_a_notebook_shows_a_table(verb: str) -> None:
     root = ElementTree.fromstring(shown.replace("<wbr>", "<wbr/>"))
     rows = root.findall(".//tr")
     assert len(rows) == len(result._table()[1]) >= 2
-    assert "".join(root.find("b").itertext()).startswith("certificate" if verb == "check" else "a < b & c")  # type: ignore[union-attr]
+    assert "".join(root.find("b").itertext()).startswith("certificate" if verb == "check" else "a < b & c")
     latex = result._repr_latex_()
     assert latex.startswith("$$\\begin{array}{")
     assert latex.endswith("\\end{array}$$")
@@ -78,7 +78,7 @@ def test_without_the_extra_the_text_is_shown(monkeypatch: pytest.MonkeyPatch) ->
 def test_from_a_networkx_graph_to_a_certificate_in_five_lines(checkout: Path, tmp_path: Path) -> None:
     """The README's own lines, what they print, and what the command says of their certificate."""
     section = (checkout / "README.md").read_text().partition("## From Python\n")[2].partition("\n## ")[0]
-    code, printed = re.search(r"```python\n(.*?)```\n\n```text\n(.*?)```", section, re.DOTALL).groups()  # type: ignore[union-attr]
+    code, printed = re.search(r"```python\n(.*?)```\n\n```text\n(.*?)```", section, re.DOTALL).groups()
     assert sum(line != "" for line in code.splitlines()) == 5
     assert "networkx" in code
     done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=False)

@@ -92,8 +92,8 @@ def test_synthesize_as_the_command_does(checkout: Path, tmp_path: Path) -> None:
     found.save(tmp_path / "api.toml")
     for ending in (".toml", ".json"):
         assert (tmp_path / f"api{ending}").read_bytes() == (tmp_path / f"cli{ending}").read_bytes()
-    assert (found.design.gamma, found.design.h) == (found.gamma, found.h)  # type: ignore[union-attr]
-    assert found.proof.exit_status == 0  # type: ignore[union-attr]
+    assert (found.design.gamma, found.design.h) == (found.gamma, found.h)
+    assert found.proof.exit_status == 0
     assert check(found, design=Design.read(tmp_path / "api.toml")).exit_status == 0
 
 

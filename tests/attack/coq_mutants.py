@@ -52,10 +52,10 @@ def _rational(text: str, name: str) -> Fraction | None:
 
 def design_in(text: str) -> Design | None:
     """The design that the file is about; None where its numbers are no design's."""
-    agents = int(re.search(r"Definition agents : nat := (-?\d+)\.", text).group(1))  # type: ignore[union-attr]
-    rows = re.search(r"Definition weights : zmat := \[(.*?)\]%Z\.", text, re.DOTALL).group(1)  # type: ignore[union-attr]
+    agents = int(re.search(r"Definition agents : nat := (-?\d+)\.", text).group(1))
+    rows = re.search(r"Definition weights : zmat := \[(.*?)\]%Z\.", text, re.DOTALL).group(1)
     weights = [[int(x) for x in row.split(";")] for row in re.findall(r"\[([^\]]*)\]", rows)]
-    denominator = int(re.search(r"Definition denominator : Z := (-?\d+)\.", text).group(1))  # type: ignore[union-attr]
+    denominator = int(re.search(r"Definition denominator : Z := (-?\d+)\.", text).group(1))
     alpha, mu, gamma, h = (_rational(text, name) for name in ("alpha", "mu", "gamma", "h"))
     start = re.search(r"\(trajectory_norm_bound agents graph alpha gamma h \[([^\]]*)\]%Z (-?\d+)\)", text)
     off = any(x and i == j for i, row in enumerate(weights) for j, x in enumerate(row))

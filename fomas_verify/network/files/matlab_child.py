@@ -48,7 +48,7 @@ def main() -> None:
     path, *variable = sys.argv[1:]
     try:
         record, arrays = told(path, variable[0] if variable else None)
-    except NotImplementedError:
+    except NotImplementedError:  # what scipy raises on a file of version 7.3
         record, arrays = {"newer": True}, []
     except Exception as error:  # a damaged file can make a library raise anything
         record, arrays = {"error": " ".join(f"{error}".split()) or type(error).__name__}, []
