@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from fomas_verify.cli.machine import ended_by_sigterm, processors
+from fomas_verify.cli.options import allow_outside_option
 from fomas_verify.design import CLAIM_IDS
 from fomas_verify.report.files import make_folder, write_whole
 
@@ -50,6 +51,7 @@ def _fixed(_: click.Context, __: click.Parameter, value: tuple[str, ...]) -> dic
 @click.option("--y", "up", metavar="NAME", help="its vertical axis")
 @click.option("--claim", type=click.Choice(CLAIM_IDS), metavar="ID", help="its claim  [default: average-consensus]")
 @click.option("--at", multiple=True, callback=_fixed, metavar="NAME=VALUE", help="show the rows with this value only")
+@allow_outside_option
 def command(
     grid: Path,
     output: Path | None,
@@ -63,6 +65,8 @@ def command(
     up: str | None,
     claim: str | None,
     at: dict[str, str],
+    *,
+    allow_outside: bool,
 ) -> int:
     """Decide every design of GRID, a design file with a table [grid] of what is swept, and write a Parquet dataset.
 
@@ -79,7 +83,10 @@ def command(
 
     folder = output or Path(f"{grid.stem}.rows")
     part_rows = part_rows or (known_part_rows(folder) if folder.is_dir() else None)
-    plan = make_plan(read_grid(grid), only=claims, part_rows=part_rows, most_rows=max_rows)
+    read = read_grid(grid, allow_outside=allow_outside)
+    plan = make_plan(read, only=claims, part_rows=part_rows, most_rows=max_rows)
+    for remark in read.remarks:
+        click.echo(f"note: graph: {remark}", err=True)
     draw = _drawing(plan, plot, across, up, claim, at)
     make_folder(folder)
     with ended_by_sigterm(), _listener(folder) as listener:

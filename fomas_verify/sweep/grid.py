@@ -17,6 +17,9 @@ from typing import Any, Final
 from fomas_verify.design import Design, DesignError, design_from_mapping
 from fomas_verify.design.document import format_of, parse_document, read_text, source_name
 from fomas_verify.design.fields import Place, table
+from fomas_verify.design.graph_file import Folder, folder_of
+from fomas_verify.design.graph_table import read_graph
+from fomas_verify.exact.rational import format_rational
 from fomas_verify.network import SHAPED_FAMILIES
 from fomas_verify.sweep.axes import Axis, read_agents, read_families, read_numbers, read_shapes
 
@@ -37,13 +40,16 @@ class Grid:
     source : str
         The file, for messages.
     base : mapping
-        The keys of the design other than [grid], as parsed.
+        The keys of the design other than [grid], as parsed; the edges in place of the name of a graph file, so that
+        whoever computes reads no file.
     graph_axes : tuple of str
         Which of family, agents and shape are swept.
     graphs : tuple of mappings
         The keys of [graph] that each graph has of its own; one empty mapping where no graph is swept.
     axes : tuple of Axis
         The swept numbers, in the order alpha, gamma, mu, h.
+    remarks : tuple of str
+        What the user must know about the reading of the graph file.
     """
 
     source: str
@@ -51,6 +57,7 @@ class Grid:
     graph_axes: tuple[str, ...]
     graphs: tuple[GraphKeys, ...]
     axes: tuple[Axis, ...]
+    remarks: tuple[str, ...] = ()
 
     @property
     def rows(self) -> int:
@@ -107,7 +114,7 @@ class Grid:
         return design_from_mapping(mapping, self.source)
 
 
-def read_grid(path: str | PathLike[str]) -> Grid:
+def read_grid(path: str | PathLike[str], *, allow_outside: bool = False) -> Grid:
     """Read a grid file, TOML or JSON.
 
     Parameters
@@ -115,6 +122,8 @@ def read_grid(path: str | PathLike[str]) -> Grid:
     path : path
         A design file with a table [grid]: lists, or for numbers `{from, to, steps}`, under `alpha`, `gamma`, `mu`, `h`,
         `family`, `agents`, `shape`. What stands in [grid] stands nowhere else.
+    allow_outside : bool
+        Whether its graph file may lie outside its folder.
 
     Returns
     -------
@@ -127,10 +136,11 @@ def read_grid(path: str | PathLike[str]) -> Grid:
         With one line that names the file, the key and what was expected.
     """
     text, source = read_text(path), source_name(path)
-    return grid_from_mapping(parse_document(text, format_of(path, text), source), source)
+    folder = folder_of(path, allow_outside=allow_outside)
+    return grid_from_mapping(parse_document(text, format_of(path, text), source), source, folder)
 
 
-def grid_from_mapping(mapping: Mapping[str, object], source: str = "grid") -> Grid:
+def grid_from_mapping(mapping: Mapping[str, object], source: str = "grid", folder: Folder | None = None) -> Grid:
     """Read a grid from a mapping with the keys of the grid file; otherwise as `read_grid`."""
     place = Place(source).key("grid")
     if "grid" not in mapping:
@@ -144,9 +154,24 @@ def grid_from_mapping(mapping: Mapping[str, object], source: str = "grid") -> Gr
             raise DesignError(f"{place.key(key)}: expected {key} either in [grid] or above it, got both")
     axes = tuple(read_numbers(key, swept[key], place.key(key)) for key in NUMBERS if key in swept)
     graph_axes = tuple(key for key in OF_GRAPHS if key in swept)
-    grid = Grid(source, base, graph_axes, _graphs(swept, base, place), axes)
+    base, remarks = _with_edges(base, Place(source).key("graph"), folder)
+    if graph_axes and remarks is not None:
+        raise DesignError(f"{place.key(graph_axes[0])}: expected no {graph_axes[0]} where the graph is a file's")
+    grid = Grid(source, base, graph_axes, _graphs(swept, base, place), axes, remarks or ())
     _first_design(grid).needs("mu", command="sweep")
     return grid
+
+
+def _with_edges(
+    base: dict[str, object], place: Place, folder: Folder | None
+) -> tuple[dict[str, object], tuple[str, ...] | None]:
+    """The base with edges in place of its graph file, and what must be known of the reading; None for no file."""
+    given = base.get("graph")
+    if not isinstance(given, Mapping) or "file" not in given:
+        return base, None
+    graph, remarks = read_graph(given, place, folder)
+    edges = [[source, target, format_rational(weight)] for source, target, weight in graph.edges]
+    return {**base, "graph": {"agents": graph.agents, "edges": edges}}, remarks
 
 
 def _graphs(swept: Mapping[str, object], base: Mapping[str, object], place: Place) -> tuple[GraphKeys, ...]:
