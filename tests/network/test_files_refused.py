@@ -1,6 +1,8 @@
 """Graph files, networkx graphs and matrices that are refused, each in one line that says where and why."""
 
 import io
+import subprocess
+import sys
 import zlib
 from collections.abc import Callable
 from fractions import Fraction
@@ -248,7 +250,7 @@ def test_a_matlab_file_that_would_fill_memory(tmp_path: Path, monkeypatch: pytes
     )
     scipy.io.savemat(tmp_path / "a.mat", {"A": zeros if sparse else np.zeros((100, 100))}, do_compression=True)
     monkeypatch.setattr("fomas_verify.network.files.refusals.UNPACKED_BYTES", 1000)
-    monkeypatch.setattr("fomas_verify.network.files.matlab._PIECE", 1000)
+    monkeypatch.setattr("fomas_verify.network.files.matlab_elements._PIECE", 1000)
     with pytest.raises(GraphFileError, match=r"expected at most \d+ bytes unpacked, got more: save it as a sparse"):
         read_graph_file(tmp_path / "a.mat", "hears")
     monkeypatch.undo()
@@ -295,6 +297,35 @@ def test_pointers_of_a_matrix_that_says_it_is_empty(tmp_path: Path, pointers: li
     np.savez(tmp_path / "a.npz", format="csr", shape=[2, 2], data=[1.0, 1.0], indices=[1, 0], indptr=pointers)
     with pytest.raises(GraphFileError, match="damaged"):
         read_graph_file(tmp_path / "a.npz", "hears")
+
+
+def test_scipy_is_not_asked_about_a_damaged_type_or_pointer(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """What it does then is a matter of luck: it ends by a signal, goes round in circles, or reads what lies there."""
+    monkeypatch.setattr("fomas_verify.network.files.matlab.subprocess.run", pytest.fail)
+    for name in ("type-of-numbers", "type-in-compressed"):
+        data = (Path(__file__).parents[1] / "fuzz" / "failed" / f"graph-{name}.input").read_bytes()
+        (tmp_path / "a.mat").write_bytes(data.partition(b"\n")[2])
+        with pytest.raises(GraphFileError, match="damaged"):
+            read_graph_file(tmp_path / "a.mat", "hears")
+
+
+@pytest.mark.parametrize("pointers", [[0, 3, 1, 2], [0, 999, 0, 0], [0, 1 << 30, -1, 0]])
+def test_pointers_that_decrease_end_scipys_process_with_a_word(tmp_path: Path, pointers: list[int]) -> None:
+    """`tocoo` walks along them, perhaps for ever: not even in a process of its own may it."""
+    matrix = scipy.sparse.csc_matrix(np.array([[0, 1.0, 2.0], [2.0, 0, 1.0], [1.0, 2.0, 0]]))
+    scipy.io.savemat(tmp_path / "a.mat", {"A": matrix})
+    data, old = bytearray((tmp_path / "a.mat").read_bytes()), np.array(matrix.indptr, "<i4").tobytes()
+    assert data.count(old) == 1
+    at = data.index(old)
+    data[at : at + 16] = np.array(pointers, "<i4").tobytes()
+    (tmp_path / "a.mat").write_bytes(data)
+    child = Path(read_graph_file.__code__.co_filename).with_name("matlab_child.py")
+    call = [sys.executable, "-I", str(child), str(tmp_path / "a.mat")]
+    run = subprocess.run(call, capture_output=True, check=False, timeout=60)
+    assert run.returncode == 0
+    assert b'"error"' in run.stdout
+    with pytest.raises(GraphFileError, match="damaged"):
+        read_graph_file(tmp_path / "a.mat", "hears")
 
 
 @pytest.mark.parametrize("compressed", [False, True])

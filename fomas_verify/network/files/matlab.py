@@ -4,25 +4,21 @@ from __future__ import annotations
 
 import io
 import json
-import struct
 import subprocess
 import sys
-import zlib
-from collections.abc import Iterator
-from os import SEEK_CUR
 from pathlib import Path
 from typing import Any, Final
 
 from fomas_verify.network.files.entries import Entries
+from fomas_verify.network.files.matlab_elements import must_be_sound, unpacked_sizes
 from fomas_verify.network.files.matrices import entries_of_matrix
 from fomas_verify.network.files.refusals import damaged, must_unpack_small, need_extra, reading, refused
 from fomas_verify.network.files.variables import choose
 
 EXPECTED: Final = "a MATLAB file"
 
-_HEADER: Final = 128
-_COMPRESSED: Final = 15
-_PIECE: Final = 1 << 20
+PATIENCE: Final = 120
+"""Seconds for scipy, which can go round in circles on a damaged file; a sound one of the largest takes a few."""
 
 _CHILD = Path(__file__).with_name("matlab_child.py")
 
@@ -31,9 +27,14 @@ def read(path: Path, name: str, variable: str | None = None) -> Entries:
     """Read the square matrix of a MATLAB file; raises `GraphFileError`."""
     need_extra("numpy", "scipy.io")
     with reading(path, name, EXPECTED, EXPECTED):
-        must_unpack_small(path, name, _unpacked_sizes(path))
+        must_unpack_small(path, name, unpacked_sizes(path))
+        must_be_sound(path)
     call = [sys.executable, "-I", str(_CHILD), str(path.resolve()), *([] if variable is None else [variable])]
-    run = subprocess.run(call, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=False)
+    nothing, told = subprocess.DEVNULL, subprocess.PIPE
+    try:
+        run = subprocess.run(call, stdin=nothing, stdout=told, stderr=nothing, timeout=PATIENCE, check=False)
+    except subprocess.TimeoutExpired:
+        raise damaged(path, name, EXPECTED, EXPECTED, f"scipy has not read it within {PATIENCE} s") from None
     if run.returncode or not run.stdout:
         raise damaged(path, name, EXPECTED, EXPECTED, "scipy ends on it")
     answer = io.BytesIO(run.stdout)
@@ -46,28 +47,6 @@ def read(path: Path, name: str, variable: str | None = None) -> Entries:
     with reading(path, name, EXPECTED, EXPECTED):
         matrix = _matrix(answer, record["sparse"])
     return entries_of_matrix(matrix, name)
-
-
-def _unpacked_sizes(path: Path) -> Iterator[int]:
-    """The sizes to which a file of version 5 to 7.2 unpacks, piece by piece; nothing where it is of version 4.
-
-    Source: MAT-File Level 5 File Format, MathWorks, chapter 1.
-    """
-    with path.open("rb") as file:
-        header = file.read(_HEADER)
-        order = "<" if header[126:] == b"IM" else ">"
-        if 0 in header[:4] or header[124:126] not in (b"\0\1", b"\1\0"):
-            return
-        while len(tag := file.read(8)) == 8:
-            kind, size = struct.unpack(f"{order}II", tag)
-            if kind != _COMPRESSED:
-                yield size
-                file.seek(size + -size % 8, SEEK_CUR)
-                continue
-            unpack, data = zlib.decompressobj(), file.read(size)
-            while data and not unpack.eof:
-                yield len(unpack.decompress(data, _PIECE))
-                data = unpack.unconsumed_tail
 
 
 def _matrix(answer: io.BytesIO, shape: list[int] | None) -> Any:

@@ -36,6 +36,8 @@ def told(path: str, variable: str | None) -> tuple[dict[str, Any], list[Any]]:
     if not issparse(matrix):
         return {"variables": found, "sparse": None}, [matrix]
     matrix.check_format(full_check=True)
+    if (matrix.indptr[1:] < matrix.indptr[:-1]).any():  # not looked at where the last one says that nothing is stored
+        raise ValueError("its pointers decrease")
     entries = matrix.tocoo()
     return {"variables": found, "sparse": entries.shape}, [entries.row, entries.col, entries.data]
 
