@@ -91,18 +91,19 @@ def check(
     for name in required:
         if name not in STATEMENTS and name != OWN:
             raise DesignError(f"check: require: expected claim ids or {OWN!r}, got {str(name)[:60]!r}")
-    data, called = _bytes(certificate)
-    return Checked(answer_to(data, called, None if design is None else exact_design(design), required))
+    data, path = _bytes(certificate)
+    called = "certificate" if path is None else fspath(path)
+    return Checked(answer_to(data, called, None if design is None else exact_design(design), required, path))
 
 
-def _bytes(certificate: Certified | str | bytes | PathLike[str]) -> tuple[bytes, str]:
-    """The certificate and its name."""
+def _bytes(certificate: Certified | str | bytes | PathLike[str]) -> tuple[bytes, Path | None]:
+    """The certificate and its file, beside which the edge list of a large network lies."""
     if isinstance(certificate, Certified):
-        return certificate.certificate.encode(), "certificate"
+        return certificate.certificate.encode(), None
     if isinstance(certificate, bytes):
-        return certificate, "certificate"
+        return certificate, None
     if isinstance(certificate, str) and certificate.lstrip().startswith("{"):
-        return certificate.encode("utf-8", "surrogatepass"), "certificate"
+        return certificate.encode("utf-8", "surrogatepass"), None
     if not isinstance(certificate, str | PathLike):
         raise CertificateError(f"certificate: expected a text, a path or a result, got a {type(certificate).__name__}")
-    return read_certificate(Path(certificate)), fspath(certificate)
+    return read_certificate(Path(certificate)), Path(certificate)

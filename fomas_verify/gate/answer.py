@@ -24,7 +24,6 @@ OWN: Final = "design"
 """Stands among required claims for those that the certificate's design itself requires."""
 
 LARGEST: Final = 64 << 20
-MOST_EDGES: Final = 1 << 24
 FALSE, UNDECIDED = 1, 3
 ENDINGS = {0: "Accepted.", FALSE: "Refused.", UNDECIDED: "Not decided within the work allowed."}
 
@@ -149,9 +148,8 @@ def _edges(named: Any, meant: Design | UncertainDesign | SwitchedDesign) -> dict
     from fomas_verify.design import SwitchedDesign
 
     if isinstance(named, LargeDesign):
-        return {
-            "graph": (_digest_of(named), None if isinstance(meant, SwitchedDesign) else _digest(_plain(meant).graph))
-        }
+        same = not isinstance(meant, SwitchedDesign) and _is_graph(named, _plain(meant).graph)
+        return {"graph": (same, True)}
     theirs = [sorted(graph.edges) for graph in (named.graphs if isinstance(named, Switched) else (named,))]
     graphs = meant.graphs if isinstance(meant, SwitchedDesign) else (_plain(meant).graph,)
     key = "graphs" if isinstance(meant, SwitchedDesign) else "edges"
@@ -159,18 +157,16 @@ def _edges(named: Any, meant: Design | UncertainDesign | SwitchedDesign) -> dict
     return {key: (theirs if same_kind else None, [sorted(graph.edges) for graph in graphs])}
 
 
-def _digest_of(named: LargeDesign) -> str:
-    """The digest of the edge list of a large certificate's graph; a family's is that of the graph so called."""
+def _is_graph(named: LargeDesign, graph: Digraph) -> bool:
+    """Whether a large certificate's graph is this one: by the digest of its edge list, or edge by edge of a family."""
     from fomas_verify.checker.large_form import EdgeFile
-    from fomas_verify.network import FAMILIES, family
 
-    graph = named.graph
-    if isinstance(graph, EdgeFile):
-        return graph.sha256
-    if graph.edge_count > MOST_EDGES:
-        return ""
-    plain = graph.name in FAMILIES
-    return _digest(family(graph.name, agents=named.agents) if plain else family(graph.name, shape=graph.shape))
+    if isinstance(named.graph, EdgeFile):
+        return named.graph.sha256 == _digest(graph)
+    if (named.agents, named.graph.edge_count) != (graph.agents, len(graph.edges)):
+        return False
+    pairs = {(source + 1, target + 1) for source, target in named.graph.pairs()}
+    return all(weight == 1 and (source, target) in pairs for source, target, weight in graph.edges)
 
 
 def _digest(graph: Digraph) -> str:

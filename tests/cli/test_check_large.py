@@ -73,3 +73,33 @@ def test_it_is_about_the_design_or_not(file: Path, family: str, status: int) -> 
     named = certificate(design({"family": "cycle"}, 5, mu=str(Fraction(1, 10))), claim("gain-bound", "proved"))
     file.write_text(json.dumps(named))
     assert main(["check", str(file), "--design", str(meant)]) == status
+
+
+@pytest.mark.parametrize(
+    ("graph", "status"),
+    [
+        ("agents = 4\nedges = [[1, 2], [2, 1], [2, 3], [3, 2], [3, 4], [4, 3], [4, 1], [1, 4]]", 0),
+        ('agents = 4\nedges = [[1, 2, "2"], [2, 1], [2, 3], [3, 2], [3, 4], [4, 3], [4, 1], [1, 4]]', 1),
+        ("agents = 4\nedges = [[1, 2], [2, 1], [2, 3], [3, 2], [3, 4], [4, 3], [4, 2], [2, 4]]", 1),
+        ("agents = 5\nedges = [[1, 2], [2, 1], [2, 3], [3, 2], [3, 4], [4, 3], [4, 1], [1, 4]]", 1),
+        ('family = "hypercube"\nagents = 4', 1),
+        ('family = "complete"\nagents = 4', 1),
+        ('family = "directed-cycle"\nagents = 4', 1),
+    ],
+)
+def test_a_family_is_held_against_the_users_edges(tmp_path: Path, graph: str, status: int) -> None:
+    """The 4-cycle 1-2-3-4: a hypercube of 4 agents is a 4-cycle too, 1-2-4-3."""
+    named = certificate(design({"family": "cycle"}, 4, mu="1/10"), claim("gain-bound", "proved"))
+    (tmp_path / "c.json").write_text(json.dumps(named))
+    rest = '[gate]\nrequire = ["gain-bound"]\n'
+    (tmp_path / "mine.toml").write_text(f"alpha = 0.9\nmu = 0.1\n[graph]\n{graph}\n{rest}")
+    assert main(["check", str(tmp_path / "c.json"), "--design", str(tmp_path / "mine.toml")]) == status
+
+
+def test_the_api_finds_the_edge_list_beside_the_certificate(file: Path) -> None:
+    from fomas_verify import FomasError, check
+
+    assert check(file).exit_status == 3
+    assert check(str(file)).verdicts == {"gain-bound": "proved"}
+    with pytest.raises(FomasError, match="beside its edge list"):
+        check(file.read_text())

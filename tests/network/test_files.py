@@ -16,7 +16,6 @@ import scipy.sparse
 
 from fomas_verify.network import Digraph, adjacency, digraph, family
 from fomas_verify.network.files import GraphFileError, graph_from_matrix, graph_from_networkx, matlab, read_graph_file
-from fomas_verify.network.files.entries import degrees
 from fomas_verify.network.files.weights import WeightError, ratios_of_texts
 from fomas_verify.network.sparse import sparse_digraph
 
@@ -320,13 +319,6 @@ def test_a_graph_of_random_weights_against_networkx(tmp_path: Path) -> None:
     for name in ("a.mtx", "a.edgelist"):
         found = read_graph_file(tmp_path / name, "from-to").graph.to_digraph()
         assert {(i, j): float(w) for i, j, w in found.edges} == expected
-
-
-def test_degrees_are_exact_beyond_63_bits() -> None:
-    weight = Fraction(2**62 + 1)
-    graph = digraph(3, [(1, 2, weight), (1, 3, weight), (3, 2, weight)])
-    hears, heard = degrees(sparse_digraph(graph))
-    assert (hears.tolist(), heard.tolist()) == ([0, 2 * weight, weight], [2 * weight, 0, weight])
 
 
 def test_a_weight_that_the_format_gives_by_default(tmp_path: Path) -> None:

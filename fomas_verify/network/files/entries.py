@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, Final
 from fomas_verify.network.files.refusals import GraphFileError, refused
 from fomas_verify.network.files.weights import Ratio, WeightError, common_denominator
 from fomas_verify.network.sparse import SparseDigraph
+from fomas_verify.network.sparse_facts import sparse_in_sums, sparse_out_sums
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -96,33 +97,20 @@ def refuse_round_off(graph: SparseDigraph, name: str) -> None:
     """Refuse an imbalance above zero and below 1e-12 of the agent's larger degree: it is an artefact of floats."""
     import numpy as np
 
-    in_, out = degrees(graph)
-    imbalance, largest = np.abs(in_ - out), np.maximum(in_, out)
+    hears, heard = sparse_in_sums(graph), sparse_out_sums(graph)
+    imbalance, largest = np.abs(hears - heard), np.maximum(hears, heard)
     if imbalance.dtype != object:  # in floats first, which have room for what is multiplied
         imbalance, largest = imbalance.astype(float), largest.astype(float) * 2
     suspects = (imbalance > 0) & (imbalance * ROUND_OFF.denominator < largest)
     for agent in np.flatnonzero(suspects).tolist():
-        heard, hears = int(in_[agent]), int(out[agent])
-        share = Fraction(abs(heard - hears), max(heard, hears))
+        one, other = int(hears[agent]), int(heard[agent])
+        share = Fraction(abs(one - other), max(one, other))
         if share < ROUND_OFF:
             raise GraphFileError(
                 f"{name}: agent {agent + 1}: expected in-weight = out-weight, or an imbalance above round-off, got one "
                 f"of {float(share):.3g} of its degree: round the weights so that the sums agree exactly, for instance "
                 "numpy.round(A, 6), or write them as fractions such as 1/3"
             )
-
-
-def degrees(graph: SparseDigraph) -> tuple[NDArray[Any], NDArray[Any]]:
-    """What each agent hears, and how much it is heard, times the denominator; exact."""
-    import numpy as np
-
-    largest = int(graph.weights.max()) if graph.weights.size else 0
-    fits = largest * max(graph.weights.size, 1) < 2**63
-    weights = graph.weights.astype(np.int64 if fits else object)
-    in_, out = (np.zeros(graph.agents, dtype=weights.dtype) for _ in range(2))
-    np.add.at(in_, graph.targets, weights)
-    np.add.at(out, graph.sources, weights)
-    return in_, out
 
 
 def _numerators(entries: Entries, name: str) -> tuple[list[int], int]:
