@@ -5,7 +5,8 @@ Source: docs/certificate-format.md, sections 1 to 4 and 7 to 11.
 
 from dataclasses import dataclass
 
-from fomas_verify.checker.designs import Design, UncertainDesign, read_claim_id, read_design, read_family
+from fomas_verify.checker.claim_form import read_claims
+from fomas_verify.checker.designs import Design, UncertainDesign, read_design, read_family
 from fomas_verify.checker.large_form import (
     LargeClaim,
     LargeDesign,
@@ -18,7 +19,6 @@ from fomas_verify.checker.large_form import (
 )
 from fomas_verify.checker.member_form import MemberWitness, read_member_witness
 from fomas_verify.checker.region_form import Condition, read_conditions
-from fomas_verify.checker.statements import VERDICTS
 from fomas_verify.checker.switching_form import (
     SwitchedClaim,
     SwitchedCondition,
@@ -133,24 +133,9 @@ def _literal(value: object, path: str, text: str) -> None:
 
 
 def _claims(value: object, path: str, design: Design | UncertainDesign) -> tuple[Claim, ...]:
-    claims: list[Claim] = []
-    seen: list[str] = []
-    for index, entry in enumerate(array(value, path, "an array of claims")):
-        here = f"{path}[{index}]"
-        given = fields(entry, here, ("id", "verdict", "statement", "witness"))
-        name = read_claim_id(given["id"], f"{here}.id", seen)
-        verdict = given["verdict"]
-        if not isinstance(verdict, str) or verdict not in VERDICTS:
-            raise expected(f"{here}.verdict", f"one of {', '.join(VERDICTS)}", verdict)
-        statement = string(given["statement"], f"{here}.statement")
-        witness = _witness(name, verdict, given["witness"], f"{here}.witness", design)
-        claims.append(Claim(name, verdict, statement, witness))
-    if not claims:
-        raise Malformed(path, "expected at least one claim")
-    return tuple(claims)
+    def read(name: str, verdict: str, witness: object, here: str) -> MemberWitness:
+        if isinstance(design, UncertainDesign):
+            return read_member_witness(name, verdict, witness, here, design)
+        return read_witness(name, verdict, witness, here, design.agents)
 
-
-def _witness(name: str, verdict: str, value: object, path: str, design: Design | UncertainDesign) -> MemberWitness:
-    if isinstance(design, UncertainDesign):
-        return read_member_witness(name, verdict, value, path, design)
-    return read_witness(name, verdict, value, path, design.agents)
+    return tuple(Claim(*claim) for claim in read_claims(value, path, read))

@@ -6,11 +6,12 @@ Source: docs/certificate-format.md, section 11.
 import re
 from dataclasses import dataclass, field
 from fractions import Fraction
+from typing import cast
 
+from fomas_verify.checker.claim_form import read_claims
 from fomas_verify.checker.designs import (
     NUMBERS,
     State,
-    read_claim_id,
     read_order,
     read_positive,
     read_require,
@@ -18,7 +19,6 @@ from fomas_verify.checker.designs import (
 )
 from fomas_verify.checker.families import PLAIN, SHAPED, Family
 from fomas_verify.checker.network import MAX_AGENTS, MAX_EDGES
-from fomas_verify.checker.statements import VERDICTS
 from fomas_verify.checker.text import Malformed, array, count, expected, fields, rational, string
 from fomas_verify.checker.value_form import Bounds
 from fomas_verify.checker.witness import GraphDefect, Nothing, read_witness
@@ -167,23 +167,11 @@ def read_large_values(value: object, path: str) -> tuple[Bounds, ...]:
 
 def read_large_claims(value: object, path: str, agents: int) -> tuple[LargeClaim, ...]:
     """The claims, their form checked; raises `Malformed`."""
-    claims: list[LargeClaim] = []
-    seen: list[str] = []
-    for index, entry in enumerate(array(value, path, "an array of claims")):
-        here = f"{path}[{index}]"
-        given = fields(entry, here, ("id", "verdict", "statement", "witness"))
-        name = read_claim_id(given["id"], f"{here}.id", seen)
-        verdict = given["verdict"]
-        if not isinstance(verdict, str) or verdict not in VERDICTS:
-            raise expected(f"{here}.verdict", f"one of {', '.join(VERDICTS)}", verdict)
-        statement = string(given["statement"], f"{here}.statement")
-        witness: Nothing | GraphDefect = Nothing()
+
+    def read(name: str, verdict: str, witness: object, here: str) -> Nothing | GraphDefect:
         if (name, verdict) == ("graph-assumption", "refuted"):
-            defect = read_witness(name, verdict, given["witness"], f"{here}.witness", agents)
-            witness = defect if isinstance(defect, GraphDefect) else witness
-        else:
-            fields(given["witness"], f"{here}.witness", ())
-        claims.append(LargeClaim(name, verdict, statement, witness))
-    if not claims:
-        raise Malformed(path, "expected at least one claim")
-    return tuple(claims)
+            return cast(GraphDefect, read_witness(name, verdict, witness, here, agents))
+        fields(witness, here, ())
+        return Nothing()
+
+    return tuple(LargeClaim(*claim) for claim in read_claims(value, path, read))
