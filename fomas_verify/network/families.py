@@ -41,12 +41,26 @@ def family(name: str, *, agents: int | None = None, shape: Shape | None = None) 
     GraphError
         The family is unknown, or does not exist at this size. The message says what was expected and found.
     """
+    if agents is not None and name == "complete" and agents > MOST_COMPLETE:
+        raise GraphError(f"expected at most {MOST_COMPLETE} agents in a complete graph, got {agents}")
+    size = checked_size(name, agents, shape)
+    return FAMILIES[name](size) if isinstance(size, int) else SHAPED_FAMILIES[name](size)
+
+
+def checked_size(name: str, agents: int | None, shape: Shape | None) -> int | Shape:
+    """The agents or the shape of a family that exists at this size; raises `GraphError` where there is none."""
     if name in FAMILIES and agents is not None and shape is None:
         if agents < 2:
             raise GraphError(f"expected at least 2 agents, got {agents}")
-        return FAMILIES[name](agents)
+        if name == "hypercube" and agents & (agents - 1):
+            raise GraphError(f"expected a power of 2 for a hypercube, got {agents}")
+        return agents
     if name in SHAPED_FAMILIES and shape is not None and agents is None:
-        return SHAPED_FAMILIES[name](shape)
+        if name == "grid" and (min(shape) < 1 or shape[0] * shape[1] < 2):
+            raise GraphError(f"expected at least 1 row, 1 column and 2 agents for a grid, got {list(shape)}")
+        if name == "torus" and min(shape) < 3:
+            raise GraphError(f"expected at least 3 rows and 3 columns for a torus, got {list(shape)}")
+        return shape
     raise GraphError(f"expected a family with its agents or its shape, got {name!r} with {agents=}, {shape=}")
 
 
@@ -67,29 +81,21 @@ def _star(agents: int) -> Digraph:
 
 
 def _complete(agents: int) -> Digraph:
-    if agents > MOST_COMPLETE:
-        raise GraphError(f"expected at most {MOST_COMPLETE} agents in a complete graph, got {agents}")
     return _both_ways(agents, combinations(range(1, agents + 1), 2))
 
 
 def _hypercube(agents: int) -> Digraph:
-    if agents & (agents - 1):
-        raise GraphError(f"expected a power of 2 for a hypercube, got {agents}")
     bits = [1 << d for d in range(agents.bit_length() - 1)]
     return _both_ways(agents, ((i + 1, (i ^ bit) + 1) for i in range(agents) for bit in bits))
 
 
 def _grid(shape: Shape) -> Digraph:
     rows, columns = shape
-    if min(shape) < 1 or rows * columns < 2:
-        raise GraphError(f"expected at least 1 row, 1 column and 2 agents for a grid, got {list(shape)}")
     return _both_ways(rows * columns, _lattice(shape, wrap=False))
 
 
 def _torus(shape: Shape) -> Digraph:
     rows, columns = shape
-    if min(shape) < 3:
-        raise GraphError(f"expected at least 3 rows and 3 columns for a torus, got {list(shape)}")
     return _both_ways(rows * columns, _lattice(shape, wrap=True))
 
 

@@ -223,11 +223,11 @@ def _by_tree(data: bytes, other: bytes, random: Random) -> bytes:
     if not isinstance(tree, dict) or not tree:
         return random.choice(EDITS)(data, other, random)
     places = list(_places(tree))
-    for _ in range(random.choice((1, 1, 2, 3))):
-        holder, key = random.choice(places)
-        _change(holder, key, tree_of(other), random)
-        places = list(_places(tree)) or [(tree, "alpha")]
     try:
+        for _ in range(random.choice((1, 1, 2, 3))):
+            holder, key = random.choice(places)
+            _change(holder, key, tree_of(other), random)
+            places = list(_places(tree)) or [(tree, "alpha")]
         return json.dumps(tree, default=str, ensure_ascii=random.random() < 0.5).encode("utf-8", "surrogatepass")
     except (ValueError, RecursionError):
         return data
