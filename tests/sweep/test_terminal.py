@@ -107,8 +107,7 @@ def test_an_interruption_has_a_line_of_its_own(long_grid: Path, tmp_path: Path) 
 
 
 def test_a_terminal_that_cannot_move_is_left_alone(write_grid, tmp_path: Path) -> None:
-    told = lambda *_: None
     status, written = on_terminal(
-        write_grid(SMALL, alpha="0.9"), "-o", tmp_path / "rows", "-j", 1, told=told, TERM="dumb"
+        write_grid(SMALL, alpha="0.9"), "-o", tmp_path / "rows", "-j", 1, told=lambda *_: None, TERM="dumb"
     )
     assert (status, written) == (0, "")
