@@ -9,9 +9,11 @@ from typing import TYPE_CHECKING, cast
 
 import click
 
+from fomas_verify.cli.limits import limited
 from fomas_verify.cli.options import allow_outside_option, json_option, tell_notes
 from fomas_verify.cli.require import require_option
 from fomas_verify.gate.answer import CertificateError, answer_to, read_certificate
+from fomas_verify.prover.limits import allowed_memory
 
 if TYPE_CHECKING:
     from fomas_verify.checker.large import Numeric
@@ -25,6 +27,7 @@ if TYPE_CHECKING:
 @allow_outside_option
 @click.option("--numeric", is_flag=True, help="redo what takes a sparse factor, with scipy and qdldl")
 @json_option
+@limited()
 def command(
     certificate: Path,
     design: Path | None,
@@ -47,7 +50,7 @@ def command(
 
 
 def _redo() -> Numeric:
-    """What redoes bounds that take a factor, in half of the machine's memory."""
+    """What redoes bounds that take a factor, in half of the machine's memory, or of what is allowed."""
     from importlib.util import find_spec
 
     from fomas_verify.numeric import SCALE, Redo
@@ -56,7 +59,7 @@ def _redo() -> Numeric:
     if missing:
         raise CertificateError(f"--numeric needs {', '.join(missing)}: pip install 'fomas_verify[scale]'")
     memory = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") // 2 if hasattr(os, "sysconf") else 4 << 30
-    return cast("Numeric", Redo(memory))
+    return cast("Numeric", Redo(min(memory, (allowed_memory() or 2 * memory) // 2)))
 
 
 def _read_design(path: Path, *, allow_outside: bool) -> Design | UncertainDesign | SwitchedDesign:

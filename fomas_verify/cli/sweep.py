@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from fomas_verify.cli.limits import limited
 from fomas_verify.cli.machine import ended_by_sigterm, processors
 from fomas_verify.cli.options import allow_outside_option
 from fomas_verify.design import CLAIM_IDS
@@ -52,6 +53,7 @@ def _fixed(_: click.Context, __: click.Parameter, value: tuple[str, ...]) -> dic
 @click.option("--claim", type=click.Choice(CLAIM_IDS), metavar="ID", help="its claim  [default: average-consensus]")
 @click.option("--at", multiple=True, callback=_fixed, metavar="NAME=VALUE", help="show the rows with this value only")
 @allow_outside_option
+@limited(keeps=True)
 def command(
     grid: Path,
     output: Path | None,
