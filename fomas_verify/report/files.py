@@ -1,17 +1,26 @@
-"""Files written whole or not at all: under a temporary name first, then renamed. No output takes a design's place."""
+"""Files written whole or not at all: under a temporary name first, then renamed. No output takes a design's place.
+
+A process that is killed leaves `.NAME.<16 hex digits>.tmp`. Whoever writes holds a lock on it, which the system lets go
+of when the process ends; so the next process that writes NAME knows what is left over, and removes it.
+"""
 
 from __future__ import annotations
 
 import os
 import re
 import secrets
+import stat
+import sys
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
+from functools import cache
+from io import FileIO
 from pathlib import Path
 
 from fomas_verify.exact.errors import FomasError
 
 _NAME_PART = 40
+_UNFINISHED = re.compile(r"\.(.{0,40})\.[0-9a-f]{16}\.tmp", re.DOTALL)
 _LOOKED_AT = 1 << 20
 _ALPHA = re.compile(rb'(?:^|[{,\n])\s*"?alpha"?\s*[=:]')
 _GRAPH = re.compile(rb'(?:^|[{,\n])\s*(?:"graphs?"\s*:|graphs?\s*[=.]|\[+\s*graphs?\s*[\].])')
@@ -47,19 +56,20 @@ def write_whole(path: Path, data: bytes, *, durable: bool = False) -> None:
 def write_all(contents: Mapping[Path, bytes], *, durable: bool = False) -> None:
     """Write several files as `write_whole` does, none where one cannot be stored; raises `OutputError`."""
     staged: list[tuple[Path, Path]] = []
-    try:
-        for path, data in contents.items():
-            with _refusals_named(path):
-                _stage(path, data, staged, durable=durable)
-        while staged:
-            temporary, path = staged[0]
-            with _refusals_named(path):
-                temporary.replace(path)
-            del staged[0]
-    finally:
-        for temporary, _ in staged:
-            with suppress(OSError):
-                temporary.unlink(missing_ok=True)
+    with ExitStack() as held:
+        try:
+            for path, data in contents.items():
+                with _refusals_named(path):
+                    _stage(path, data, staged, held, durable=durable)
+            while staged:
+                temporary, path = staged[0]
+                with _refusals_named(path):
+                    temporary.replace(path)
+                del staged[0]
+        finally:
+            for temporary, _ in staged:
+                with suppress(OSError):
+                    temporary.unlink(missing_ok=True)
 
 
 def make_folder(folder: Path) -> None:
@@ -74,7 +84,7 @@ def remove_file(path: Path) -> None:
         path.unlink(missing_ok=True)
 
 
-def _stage(path: Path, data: bytes, staged: list[tuple[Path, Path]], *, durable: bool) -> None:
+def _stage(path: Path, data: bytes, staged: list[tuple[Path, Path]], held: ExitStack, *, durable: bool) -> None:
     if path.is_dir():
         raise IsADirectoryError(None, "is a directory")
     if path.exists() and not path.is_file():
@@ -83,13 +93,70 @@ def _stage(path: Path, data: bytes, staged: list[tuple[Path, Path]], *, durable:
     target = Path(os.path.realpath(path))
     if _is_a_design(target):
         raise FileExistsError(None, "expected a file of its own, found a design")
-    temporary = target.with_name(f".{target.name[:_NAME_PART]}.{secrets.token_hex(8)}.tmp")
+    _remove_leftovers(target)
+    temporary, file = _locked_temporary(target)
+    held.enter_context(file)
     staged.append((temporary, target))
-    with temporary.open("xb") as file:
-        file.write(data)
-        if durable:
-            file.flush()
-            os.fsync(file.fileno())
+    rest = memoryview(data)
+    while rest:
+        rest = rest[file.write(rest) :]
+    if durable:
+        os.fsync(file.fileno())
+    if sys.platform == "win32":
+        file.close()  # an open file cannot be renamed there
+
+
+def _locked_temporary(target: Path) -> tuple[Path, FileIO]:
+    """A new file beside the target, open and locked; a further one where it was taken for a leftover before the lock.
+
+    It has no buffer: closing it writes nothing, and so cannot fail.
+    """
+    while True:
+        temporary = target.with_name(f".{target.name[:_NAME_PART]}.{secrets.token_hex(8)}.tmp")
+        file = temporary.open("xb", buffering=0)
+        _lock(file.fileno(), wait=True)
+        if os.fstat(file.fileno()).st_nlink or sys.platform == "win32":
+            return temporary, file
+        file.close()
+
+
+def _remove_leftovers(target: Path) -> None:
+    """Remove the temporaries of this name that no living process holds."""
+    if sys.platform == "win32":
+        return
+    for name in _unfinished(target.parent).get(target.name[:_NAME_PART], ()):
+        with suppress(OSError):
+            # Opened for writing, because some network file systems lock nothing else.
+            descriptor = os.open(target.with_name(name), os.O_RDWR | os.O_NOFOLLOW | os.O_NONBLOCK)
+            try:
+                if stat.S_ISREG(os.fstat(descriptor).st_mode) and _lock(descriptor, wait=False):
+                    target.with_name(name).unlink()
+            finally:
+                os.close(descriptor)
+
+
+@cache
+def _unfinished(folder: Path) -> dict[str, list[str]]:
+    """The temporaries by target when this process first wrote there: a folder is listed once, not for each file."""
+    found: dict[str, list[str]] = {}
+    with suppress(OSError):  # a folder may be writable and not readable
+        for path in folder.iterdir():
+            if match := _UNFINISHED.fullmatch(path.name):
+                found.setdefault(match[1], []).append(path.name)
+    return found
+
+
+def _lock(descriptor: int, *, wait: bool) -> bool:
+    """Whether a file is ours now; a file system without locks has none, and then nothing is removed."""
+    if sys.platform == "win32":
+        return False
+    import fcntl
+
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX if wait else fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        return False
+    return True
 
 
 def _is_a_design(path: Path) -> bool:
