@@ -13,7 +13,7 @@ import click
 
 from fomas_verify.cli.certified import Certified, certified_of
 from fomas_verify.cli.limits import limited
-from fomas_verify.cli.options import allow_outside_option, design_argument, json_option
+from fomas_verify.cli.options import Count, allow_outside_option, design_argument, json_option
 from fomas_verify.cli.simulate_exactly import DIGITS, Beyond, enclosed, progress_bar, to_digits
 from fomas_verify.design import Design, DesignError, read_design
 from fomas_verify.enclosure.digits import decimal
@@ -60,9 +60,7 @@ def order(_: click.Context, __: click.Parameter, value: str | None) -> Fraction 
 
 @click.command("simulate")
 @design_argument
-@click.option(
-    "--samples", type=click.IntRange(min=1), default=200, show_default=True, metavar="K", help="samples k = 0..K"
-)
+@click.option("--samples", type=Count(min=1), default=200, show_default=True, metavar="K", help="samples k = 0..K")
 @click.option(
     "--controller", "names", default="proposed,memoryless", show_default=True, callback=controllers, metavar="NAMES",
     help="some of proposed, memoryless, truncated",
