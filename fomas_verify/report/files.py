@@ -83,8 +83,10 @@ def write_whole(path: Path, data: bytes, *, durable: bool = False) -> None:
     write_all({path: data}, durable=durable)
 
 
-def write_all(contents: Mapping[Path, bytes], *, durable: bool = False) -> None:
-    """Write several files as `write_whole` does, none where one cannot be stored; raises `OutputError`."""
+def write_all(contents: Mapping[Path, bytes | Iterable[bytes]], *, durable: bool = False) -> None:
+    """Write several files, whole or part after part, as `write_whole` does, none where one cannot be stored; raises
+    `OutputError`.
+    """
     staged: list[tuple[Path, Path]] = []
     try:
         for path, data in contents.items():
@@ -122,12 +124,14 @@ def remove_file(path: Path) -> None:
             path.unlink(missing_ok=True)
 
 
-def _stage(path: Path, data: bytes, staged: list[tuple[Path, Path]], *, durable: bool) -> None:
+def _stage(path: Path, data: bytes | Iterable[bytes], staged: list[tuple[Path, Path]], *, durable: bool) -> None:
     if path.is_dir():
         raise IsADirectoryError(None, "is a directory")
+    parts = (data,) if isinstance(data, bytes) else data
     if path.exists() and (not path.is_file() or _is_held_output(path)):
         if _held is None or not _held.names:
-            path.write_bytes(data)
+            with path.open("wb") as file:
+                file.writelines(parts)
             return
         target, temporary = path, Path(tempfile.gettempdir(), f"{secrets.token_hex(8)}.tmp")
     else:
@@ -139,7 +143,7 @@ def _stage(path: Path, data: bytes, staged: list[tuple[Path, Path]], *, durable:
         _held.tell(temporary)
     staged.append((temporary, target))
     with temporary.open("xb") as file:
-        file.write(data)
+        file.writelines(parts)
         if durable:
             file.flush()
             os.fsync(file.fileno())
