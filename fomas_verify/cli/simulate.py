@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 from importlib import import_module
 from pathlib import Path
@@ -110,7 +110,7 @@ def command(
     read = read_design(design, allow_outside=allow_outside)
     plant = _plant(read)
     points = max(between, POINTS_IN_FIGURES if plot is not None else 0)
-    _must_fit(plant, samples, len(names), points, table=csv_file is not None or parquet is not None)
+    _must_fit(plant, samples, len(names), points, table=parquet is not None or enclose or digits is not None)
     laws = [_law(name, keep) for name in names]
     runs = _runs(plant, laws, samples, alpha_controller, between)
     known = certified_of(read)
@@ -210,11 +210,11 @@ def _write(
     figures: dict[Path, bytes],
 ) -> None:
     from fomas_verify.report.files import make_folder, write_all
-    from fomas_verify.simulate.table import csv_bytes, parquet_bytes
+    from fomas_verify.simulate.table import csv_parts, parquet_bytes
 
-    contents = dict(figures)
+    contents: dict[Path, bytes | Iterable[bytes]] = dict(figures)
     if csv_file is not None:
-        contents[csv_file] = csv_bytes(runs) if beyond is None else beyond.csv
+        contents[csv_file] = csv_parts(runs) if beyond is None else beyond.csv
     if parquet is not None:
         contents[parquet] = parquet_bytes(runs)
     for folder in {path.parent for path in figures}:

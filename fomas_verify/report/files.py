@@ -92,8 +92,10 @@ def write_whole(path: Path, data: bytes, *, durable: bool = False) -> None:
     write_all({path: data}, durable=durable)
 
 
-def write_all(contents: Mapping[Path, bytes], *, durable: bool = False) -> None:
-    """Write several files as `write_whole` does, none where one cannot be stored; raises `OutputError`."""
+def write_all(contents: Mapping[Path, bytes | Iterable[bytes]], *, durable: bool = False) -> None:
+    """Write several files, whole or part after part, as `write_whole` does, none where one cannot be stored; raises
+    `OutputError`.
+    """
     staged: list[tuple[Path, Path]] = []
     with ExitStack() as files:
         try:
@@ -133,12 +135,16 @@ def remove_file(path: Path) -> None:
             path.unlink(missing_ok=True)
 
 
-def _stage(path: Path, data: bytes, staged: list[tuple[Path, Path]], files: ExitStack, *, durable: bool) -> None:
+def _stage(
+    path: Path, data: bytes | Iterable[bytes], staged: list[tuple[Path, Path]], files: ExitStack, *, durable: bool
+) -> None:
     if path.is_dir():
         raise IsADirectoryError(None, "is a directory")
+    parts = (data,) if isinstance(data, bytes) else data
     if path.exists() and (not path.is_file() or _is_held_output(path)):
         if _held is None or not _held.names:
-            path.write_bytes(data)
+            with path.open("wb") as file:
+                file.writelines(parts)
             return
         target, place = path, Path(tempfile.gettempdir(), path.name)
     else:
@@ -149,9 +155,10 @@ def _stage(path: Path, data: bytes, staged: list[tuple[Path, Path]], files: Exit
     temporary, file = _locked_temporary(place)
     files.enter_context(file)
     staged.append((temporary, target))
-    rest = memoryview(data)
-    while rest:
-        rest = rest[file.write(rest) :]
+    for part in parts:
+        rest = memoryview(part)
+        while rest:
+            rest = rest[file.write(rest) :]
     if durable:
         os.fsync(file.fileno())
     if sys.platform == "win32":
