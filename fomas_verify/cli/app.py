@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import sys
 from importlib import import_module
-from typing import Any
 
 import click
 
-from fomas_verify.exact.errors import FomasError
+from fomas_verify.cli.outcome import outcome
 
 COMMANDS = {
     "prove": "decide every claim about a design; write its certificate",
@@ -25,7 +24,6 @@ COMMANDS = {
     "completion": "completion of commands and options for bash, zsh and fish",
     "selftest": "known answers of every primitive, proved again",
 }
-WRONG_INPUT = 2
 
 
 class LazyGroup(click.Group):
@@ -64,20 +62,7 @@ def app() -> None:
 
 def main(arguments: list[str] | None = None) -> int:
     """Run the command line and return the exit status."""
-    try:
-        result: Any = app.main(args=arguments, prog_name="verify-design", standalone_mode=False)
-        return int(result or 0)
-    except click.exceptions.NoArgsIsHelpError as error:
-        click.echo(error.format_message(), err=True)
-        return WRONG_INPUT
-    except click.exceptions.Abort:
-        raise KeyboardInterrupt from None
-    except click.ClickException as error:
-        return _fail(" ".join(error.format_message().split()), WRONG_INPUT)
-    except FomasError as error:
-        return _fail(str(error), error.exit_status)
-
-
-def _fail(message: str, status: int) -> int:
-    sys.stderr.write(f"verify-design: {message}\n")
+    status, message = outcome(lambda: app.main(args=arguments, prog_name="verify-design", standalone_mode=False))
+    if message:
+        sys.stderr.write(f"verify-design: {message}\n")
     return status

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from fomas_verify.cli.limits import limited
 from fomas_verify.cli.numeric import needed_redo
 from fomas_verify.cli.options import allow_outside_option, json_option, tell_notes
 from fomas_verify.cli.require import require_option
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
 @allow_outside_option
 @click.option("--numeric", is_flag=True, help="redo what takes a sparse factor, with scipy and qdldl")
 @json_option
+@limited()
 def command(
     certificate: Path,
     design: Path | None,

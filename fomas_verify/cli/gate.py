@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from fomas_verify.cli.limits import limited
 from fomas_verify.cli.machine import ended_by_sigterm, processors
 from fomas_verify.cli.numeric import redo_if_installed
 from fomas_verify.cli.options import allow_outside_option, json_option
@@ -61,6 +62,7 @@ class NamedPath(click.Path):
 @click.option("--cache", type=FILE, metavar="DIR", help="reuse certificates, each checked again")
 @allow_outside_option
 @click.option("-q", "--quiet", is_flag=True, help="print only what does not pass")
+@limited()
 def command(
     paths: tuple[Path, ...],
     require: tuple[str, ...],

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import click
 
+from fomas_verify.cli.limits import limited
 from fomas_verify.cli.options import allow_outside_option, design_argument, digits_option, json_option
 from fomas_verify.design import read_single
 from fomas_verify.enclosure.digits import decimal
@@ -27,6 +28,7 @@ HEADER = ("j", "f", "c", "partial_sum", "r")
 @click.option("--csv", "csv_file", type=click.Path(path_type=Path), metavar="FILE", help="write the rows to a CSV file")
 @allow_outside_option
 @json_option
+@limited()
 def command(
     design: Path,
     terms: int | None,

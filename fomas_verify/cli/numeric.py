@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import os
-from importlib.util import find_spec
 from typing import TYPE_CHECKING, cast
 
 from fomas_verify.gate.answer import CertificateError
+from fomas_verify.prover.limits import memory_for_factors
 
 if TYPE_CHECKING:
     from fomas_verify.checker.large import Numeric
 
 
 def needed_redo() -> Numeric:
-    """It, in half of the machine's memory; raises `CertificateError` where the extra `scale` is missing."""
+    """It, in half of the memory; raises `CertificateError` where the extra `scale` is missing."""
     missing = _missing()
     if missing:
         raise CertificateError(f"--numeric needs {', '.join(missing)}: pip install 'fomas_verify[scale]'")
@@ -21,11 +20,13 @@ def needed_redo() -> Numeric:
 
 
 def redo_if_installed(processes: int) -> Numeric | None:
-    """It, in a share of half of the machine's memory for each process; None where the extra `scale` is missing."""
+    """It, in its share of half of the memory for each process; None where the extra `scale` is missing."""
     return None if _missing() else _redo(processes)
 
 
 def _missing() -> list[str]:
+    from importlib.util import find_spec
+
     from fomas_verify.numeric import SCALE
 
     return [name for name in SCALE if find_spec(name) is None]
@@ -34,5 +35,4 @@ def _missing() -> list[str]:
 def _redo(processes: int) -> Numeric:
     from fomas_verify.numeric import Redo
 
-    memory = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") // 2 if hasattr(os, "sysconf") else 4 << 30
-    return cast("Numeric", Redo(memory // processes))
+    return cast("Numeric", Redo(memory_for_factors() // processes))

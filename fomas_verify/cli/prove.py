@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from fomas_verify.cli.limits import limited
 from fomas_verify.cli.options import allow_outside_option, design_argument, digits_option, tell_notes
 from fomas_verify.design import AnyDesign, Design, DesignError, LargeDesign, SwitchedDesign, UncertainDesign, read_named
 from fomas_verify.prover import LargeProof, Proof, UncertainProof, prove, prove_large, prove_uncertain
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
 @digits_option
 @allow_outside_option
 @click.option("--json", "as_json", is_flag=True, help="print the certificate in place of the table")
+@limited()
 def command(
     design: Path,
     output: Path | None,

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from fomas_verify.cli.limits import limited
 from fomas_verify.cli.options import allow_outside_option, design_argument, json_option, tell_notes
 from fomas_verify.design import DesignError, LargeDesign, Limits, SwitchedDesign, UncertainDesign, read_named
 from fomas_verify.region import Region, certificate, find_region, record, region_text
@@ -32,6 +33,7 @@ FORMATS = ("pdf", "png", "svg")
 )
 @allow_outside_option
 @json_option
+@limited()
 def command(
     design: Path, output: Path | None, plot: Path | None, solver: str, *, allow_outside: bool, as_json: bool
 ) -> int:

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import click
 
+from fomas_verify.cli.limits import limited
 from fomas_verify.cli.options import allow_outside_option, digits_option, tell_notes
 from fomas_verify.design import read_design
 from fomas_verify.prover import prove
@@ -27,6 +28,7 @@ MOST_COMPARED = 4
 @click.option("--theorem", is_flag=True, help="the corrected theorem and the counterexample, as a LaTeX fragment")
 @digits_option
 @allow_outside_option
+@limited()
 def command(
     designs: tuple[Path, ...],
     output: Path,

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import click
 
 from fomas_verify.cli.certified import Certified, certified_of
+from fomas_verify.cli.limits import limited
 from fomas_verify.cli.options import allow_outside_option, design_argument, json_option
 from fomas_verify.cli.simulate_exactly import DIGITS, Beyond, enclosed, progress_bar, to_digits
 from fomas_verify.design import Design, DesignError, read_design
@@ -67,7 +68,7 @@ def order(_: click.Context, __: click.Parameter, value: str | None) -> Fraction 
     help="some of proposed, memoryless, truncated",
 )  # fmt: skip
 @click.option("--between", type=click.IntRange(0, 10_000), default=0, metavar="M", help="M points inside each interval")
-@click.option("--memory", type=click.IntRange(0), metavar="M", help="truncated: the last M inputs are kept")
+@click.option("--keep", type=click.IntRange(0), metavar="M", help="truncated: the last M inputs are kept")
 @click.option("--alpha-controller", callback=order, metavar="ALPHA", help="order that the controllers are tuned for")
 @click.option("--digits", type=click.IntRange(17, 10_000), metavar="D", help="digits of the CSV file, by mpmath")
 @click.option("--enclose", is_flag=True, help="lower and upper ends of each number, rigorous, in the CSV file")
@@ -80,12 +81,13 @@ def order(_: click.Context, __: click.Parameter, value: str | None) -> Fraction 
     "--format", "file_format", type=click.Choice(["pdf", "png", "svg"]), default="pdf", show_default=True,
     help="of the figures",
 )  # fmt: skip
+@limited()
 def command(
     design: Path,
     samples: int,
     names: tuple[str, ...],
     between: int,
-    memory: int | None,
+    keep: int | None,
     alpha_controller: Fraction | None,
     digits: int | None,
     csv_file: Path | None,
@@ -106,12 +108,12 @@ def command(
     \b
     Example:  verify-design simulate examples/paper.toml --samples 200 --csv loop.csv --plot figures
     """
-    _must_go_together(names, memory, csv_file, parquet, digits, enclose=enclose)
+    _must_go_together(names, keep, csv_file, parquet, digits, enclose=enclose)
     read = read_design(design, allow_outside=allow_outside)
     plant = _plant(read)
     points = max(between, POINTS_IN_FIGURES if plot is not None else 0)
     _must_fit(plant, samples, len(names), points, table=csv_file is not None or parquet is not None)
-    laws = [_law(name, memory) for name in names]
+    laws = [_law(name, keep) for name in names]
     runs = _runs(plant, laws, samples, alpha_controller, between)
     known = certified_of(read)
     if alpha_controller not in (None, read.alpha):
@@ -124,22 +126,22 @@ def command(
         beyond = to_digits(read, laws, runs, alpha_controller, between=between, digits=digits)
     _write(runs, csv_file, parquet, beyond, {} if plot is None else _figures(plant, runs, known, plot, file_format))
     remarks = (compared, *(beyond.lines if beyond else ()))
-    for line in (_json(read, runs, known, remarks),) if as_json else (*_lines(read, runs, known, memory), *remarks):
+    for line in (_json(read, runs, known, remarks),) if as_json else (*_lines(read, runs, known, keep), *remarks):
         click.echo(line)
     return 0
 
 
 def _must_go_together(
     names: tuple[str, ...],
-    memory: int | None,
+    keep: int | None,
     csv_file: Path | None,
     parquet: Path | None,
     digits: int | None,
     *,
     enclose: bool,
 ) -> None:
-    if ("truncated" in names) != (memory is not None):
-        raise click.UsageError("--memory M says how many inputs the controller truncated keeps: give both or neither")
+    if ("truncated" in names) != (keep is not None):
+        raise click.UsageError("--keep M says how many inputs the controller truncated keeps: give both or neither")
     if csv_file is not None and parquet is not None and csv_file.resolve() == parquet.resolve():
         raise click.UsageError("--csv and --parquet need a file each")
     if digits is not None and csv_file is None:
@@ -168,11 +170,11 @@ def _must_fit(plant: Plant, samples: int, controllers: int, between: int, *, tab
     must_fit(needed, available_bytes(), samples)
 
 
-def _law(name: str, memory: int | None) -> Law:
+def _law(name: str, keep: int | None) -> Law:
     from fomas_verify.simulate.laws import MEMORYLESS, PROPOSED, truncated
 
-    if memory is not None and name == "truncated":
-        return truncated(memory)
+    if keep is not None and name == "truncated":
+        return truncated(keep)
     return {law.name: law for law in (PROPOSED, MEMORYLESS)}[name]
 
 
@@ -243,7 +245,7 @@ def _json(design: Design, runs: Sequence[Trajectory], known: Certified, remarks:
     return simulation_json(design, runs, known.limit, [" ".join(line.split()) for line in remarks])
 
 
-def _lines(design: Design, runs: Sequence[Trajectory], known: Certified, memory: int | None) -> Iterator[str]:
+def _lines(design: Design, runs: Sequence[Trajectory], known: Certified, keep: int | None) -> Iterator[str]:
     from numpy import array
 
     from fomas_verify.simulate import summary
@@ -256,8 +258,8 @@ def _lines(design: Design, runs: Sequence[Trajectory], known: Certified, memory:
     limit = None if known.limit is None else array([float(x) for x in known.limit])
     yield from summary.table(runs, limit)
     yield summary.limit_line(known.limit)
-    if memory is not None:
-        yield from summary.truncation(float(design.alpha), memory)
+    if keep is not None:
+        yield from summary.truncation(float(design.alpha), keep)
     for run in runs:
         if run.stopped:
             yield summary.stopped(run)

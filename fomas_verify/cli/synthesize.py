@@ -8,6 +8,7 @@ from pathlib import Path
 import click
 
 from fomas_verify.api.synthesizing import Synthesized, find
+from fomas_verify.cli.limits import limited
 from fomas_verify.cli.options import allow_outside_option, design_argument, json_option, tell_notes
 from fomas_verify.design import DesignError, read_design
 from fomas_verify.region.model import Condition
@@ -44,6 +45,7 @@ from fomas_verify.report.files import make_folder, write_all
 @click.option("--symmetric", is_flag=True, help="with --weights: the same weight both ways")
 @allow_outside_option
 @json_option
+@limited()
 def command(
     design: Path,
     objective: str,

@@ -47,6 +47,7 @@ from fomas_verify.gate.model import (
 )
 from fomas_verify.gate.positions import position_of, position_of_error
 from fomas_verify.prover import prove, prove_large, prove_uncertain
+from fomas_verify.prover.limits import raise_beyond_memory
 
 OWN: Final = "design"
 """Stands among required claims for those that the design itself requires."""
@@ -107,7 +108,8 @@ def decide(path: Path, options: Options) -> Result:
     Returns
     -------
     Result
-        Rigorous. Every error is told in it; nothing is raised but what interrupts or ends the program.
+        Rigorous. Every error is told in it; nothing is raised but what interrupts or ends the program, as memory
+        beyond what is allowed does.
     """
     source = source_name(path)
     answer = Result(source, str(path))
@@ -117,12 +119,14 @@ def decide(path: Path, options: Options) -> Result:
         answer = replace(answer, name=design.name, required=design.require, note="; ".join(design.notes))
         return _decided(named, answer, options)
     except FomasError as error:
+        raise_beyond_memory(error)
         message, status = str(error), error.exit_status
         rule = {INTERNAL: BROKEN, UNDECIDED: LIMIT}.get(status, UNREADABLE)
         place = refusal_position(path, message) if rule == UNREADABLE else Position()
         finding = Finding(rule, "", status, message.removeprefix(f"{source}: "), "", place)
         return replace(answer, required=(), findings=(finding,))
     except Exception as error:
+        raise_beyond_memory(error)
         words = " ".join(f"{type(error).__name__}: {error}".split())
         return replace(answer, required=(), findings=(Finding(BROKEN, "", INTERNAL, words),))
 

@@ -14,6 +14,7 @@ from pathlib import Path
 from fomas_verify.design.document import source_name
 from fomas_verify.gate.deciding import Options, decide
 from fomas_verify.gate.model import BROKEN, INTERNAL, Finding, Result
+from fomas_verify.prover.limits import allowed_memory
 from fomas_verify.prover.processes import processes
 
 
@@ -53,7 +54,10 @@ def decide_all(paths: Sequence[Path], options: Options, jobs: int) -> Generator[
 def _alone(path: Path, options: Options) -> Result:
     """Decide the first design that was lost with a pool again, to know whether it is the one that ends processes."""
     with processes(1) as pool:
-        return _result(pool.submit(decide, path, options)) or _ended(path)
+        result = _result(pool.submit(decide, path, options))
+    if result is None and allowed_memory() is not None:
+        raise MemoryError("a process was ended under a limit of memory")
+    return result or _ended(path)
 
 
 def _result(future: Future[Result]) -> Result | None:

@@ -10,7 +10,6 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from hashlib import sha256
-from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
 from fomas_verify.exact.errors import FomasError, MissingExtraError
@@ -90,12 +89,7 @@ class LargeGraph:
         """
         if self.edge_count > MOST_EDGES:
             raise TooManyEdgesError(f"expected at most {MOST_EDGES} edges to build, got {self.edge_count}")
-        missing = [name for name in ("numpy", "scipy") if find_spec(name) is None]
-        if missing:
-            raise MissingExtraError(
-                f"a graph of {self.agents} agents needs {', '.join(missing)}, which the extra `scale` brings: "
-                "pip install 'fomas_verify[scale]'"
-            )
+        need_scale(self.agents, "numpy", "scipy")
         match self._given:
             case Family() as family:
                 from fomas_verify.network.sparse_families import sparse_family
@@ -130,6 +124,17 @@ class LargeGraph:
     def digraph(self) -> Digraph:
         """The same with one Python object an edge."""
         return self.listed if isinstance(self.listed, Digraph) else self.sparse.to_digraph()
+
+
+def need_scale(agents: int, *modules: str) -> None:
+    """Raise `MissingExtraError` where one of these modules of the extra `scale` is not installed."""
+    from importlib.util import find_spec
+
+    if missing := [name for name in modules if find_spec(name) is None]:
+        raise MissingExtraError(
+            f"a graph of {agents} agents needs {', '.join(missing)}, which the extra `scale` brings: "
+            "pip install 'fomas_verify[scale]'"
+        )
 
 
 def large_family(name: str, *, agents: int | None = None, shape: Shape | None = None) -> LargeGraph:

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
-from importlib.util import find_spec
 from math import lcm
 from pathlib import Path
 from typing import Any
@@ -15,11 +13,11 @@ from fomas_verify.claims.verdict import Decision
 from fomas_verify.design import LargeDesign
 from fomas_verify.enclosure.interval import Interval
 from fomas_verify.enclosure.real import square_root
-from fomas_verify.exact.errors import MissingExtraError
 from fomas_verify.kernel.horizon import Horizon, check_horizon
-from fomas_verify.network.large import TooManyEdgesError, graph_facts
+from fomas_verify.network.large import TooManyEdgesError, graph_facts, need_scale
 from fomas_verify.network.quotients import image, quotients
 from fomas_verify.prover.large_claims import Start, decide_all, first_failure
+from fomas_verify.prover.limits import memory_for_factors
 from fomas_verify.prover.prove import (
     DEFAULT_DIGITS,
     compare_with_closed_form,
@@ -109,7 +107,7 @@ def prove_large(
     only : collection of str, optional
         Ids of the claims to decide. A horizon is checked with memory-inequality only.
     memory : int, optional
-        Bytes that a factor may take; half of the machine's by default. Without a factor there are weaker bounds.
+        Bytes that a factor may take; half of what there is by default. Without a factor there are weaker bounds.
 
     Returns
     -------
@@ -126,7 +124,7 @@ def prove_large(
         Two computations that must agree do not.
     """
     design.needs("mu", command="prove")
-    loop = _loop(design, half_of_memory() if memory is None else memory)
+    loop = _loop(design, memory_for_factors() if memory is None else memory)
     start = _start(design) if loop.assumption1 and design.x0 is not None else Start()
     decisions = decide_all(loop, start, lambda name: only is None or name in only)
     bits = min(value_bits(digits, loop.mu(64).upper, loop.degree_max), MOST_BITS)
@@ -141,22 +139,12 @@ def prove_large(
     return LargeProof(design, loop, values, decisions, seen)
 
 
-def half_of_memory() -> int:
-    """Half of the machine's memory, in bytes."""
-    return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") // 2 if hasattr(os, "sysconf") else 4 << 30
-
-
 def _loop(design: LargeDesign, memory: int) -> LargeLoop:
     family = design.graph.known_family
     facts = graph_facts(design.graph)
     if family is not None or not facts.assumption1:
         return LargeLoop(design, facts, family)
-    missing = [name for name in ("numpy", "scipy", "qdldl") if find_spec(name) is None]
-    if missing:
-        raise MissingExtraError(
-            f"{design.source}: a graph of {design.graph.agents} agents needs {', '.join(missing)}, which the extra "
-            "`scale` brings: pip install 'fomas_verify[scale]'"
-        )
+    need_scale(design.graph.agents, "numpy", "scipy", "qdldl")
     graph = design.graph.sparse
     found = large_bounds(graph, enclosed_gain(design, _GAIN_BITS).ends, memory=memory)
     found = replace(found, vectors=tuple(_that_fit(found.vectors)))

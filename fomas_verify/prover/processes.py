@@ -1,4 +1,7 @@
-"""Processes that decide many designs, and end with the one that started them, however that ends."""
+"""Processes that decide many designs, and end with the one that started them, however that ends.
+
+Under a limit of memory each of them has an equal part, and the one that started them too.
+"""
 
 from __future__ import annotations
 
@@ -9,6 +12,8 @@ from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
 from multiprocessing import active_children, get_context, parent_process
 from threading import Thread
+
+from fomas_verify.prover.limits import allow_memory, allowed_memory
 
 ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
@@ -26,7 +31,9 @@ def processes(count: int, *, fresh: bool = False) -> Iterator[ProcessPoolExecuto
     """
     before = set(active_children())
     context = get_context("spawn") if fresh else None
-    pool = ProcessPoolExecutor(count, mp_context=context, initializer=_follow_the_parent)
+    memory = allowed_memory()
+    share = None if memory is None else memory // (count + 1)
+    pool = ProcessPoolExecutor(count, mp_context=context, initializer=_follow_the_parent, initargs=(share,))
     try:
         yield pool
     except BaseException:
@@ -38,12 +45,14 @@ def processes(count: int, *, fresh: bool = False) -> Iterator[ProcessPoolExecuto
     pool.shutdown()
 
 
-def _follow_the_parent() -> None:
+def _follow_the_parent(memory: int | None) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     for name in ONE_THREAD:
         os.environ.setdefault(name, "1")
     Thread(target=_end_with_the_parent, daemon=True).start()
+    if memory is not None:
+        allow_memory(memory)
 
 
 def _end_with_the_parent() -> None:

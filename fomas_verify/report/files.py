@@ -1,12 +1,18 @@
-"""Files written whole or not at all: under a temporary name first, then renamed. No output takes a design's place."""
+"""Files written whole or not at all: under a temporary name first, then renamed. No output takes a design's place.
+
+A run that may be ended by a limit holds its files back: they keep their temporary names until it has ended, and whoever
+watches over it is told every name before it is made, to remove it where the run does not end by itself.
+"""
 
 from __future__ import annotations
 
 import os
 import re
 import secrets
-from collections.abc import Iterator, Mapping
+import tempfile
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from fomas_verify.exact.errors import FomasError
@@ -18,8 +24,41 @@ _GRAPH = re.compile(rb'(?:^|[{,\n])\s*(?:"graphs?"\s*:|graphs?\s*[=.]|\[+\s*grap
 _CERTIFICATE = re.compile(rb'"format"\s*:\s*"fomas-certificate/')
 
 
+@dataclass
+class Held:
+    """What is held back: each file under its temporary name, with the path it is meant for; None in place of the first
+    where a file is to be removed.
+    """
+
+    tell: Callable[[Path], None]
+    names: bool
+    files: list[tuple[Path | None, Path]] = field(default_factory=list)
+
+
+_held: Held | None = None
+
+
 class OutputError(FomasError):
     """A file or folder cannot be written; one line: `FILE: why`."""
+
+
+def hold_back(tell: Callable[[Path], None], *, names: bool = True) -> Held:
+    """From now on tell each path that is made; with ``names`` nothing takes its own name before `release`."""
+    global _held  # noqa: PLW0603  # this process writes for one run, which is watched or is not
+    _held = Held(tell, names)
+    return _held
+
+
+def release(files: Iterable[tuple[Path | None, Path]]) -> None:
+    """Give files that were held back their names; raises `OutputError`."""
+    for temporary, path in files:
+        with _refusals_named(path):
+            if temporary is None:
+                path.unlink(missing_ok=True)
+            elif temporary.parent != path.parent:  # no regular file, so that no name can be given
+                path.write_bytes(temporary.read_bytes())
+            else:
+                temporary.replace(path)
 
 
 def write_whole(path: Path, data: bytes, *, durable: bool = False) -> None:
@@ -51,6 +90,9 @@ def write_all(contents: Mapping[Path, bytes], *, durable: bool = False) -> None:
         for path, data in contents.items():
             with _refusals_named(path):
                 _stage(path, data, staged, durable=durable)
+        if _held is not None and _held.names:
+            _held.files += staged
+            staged.clear()
         while staged:
             temporary, path = staged[0]
             with _refusals_named(path):
@@ -65,31 +107,47 @@ def write_all(contents: Mapping[Path, bytes], *, durable: bool = False) -> None:
 def make_folder(folder: Path) -> None:
     """Make a folder and those above it where they are missing; raises `OutputError`."""
     with _refusals_named(folder):
+        if _held is not None:
+            for missing in reversed([x for x in (folder, *folder.parents) if not x.exists()]):
+                _held.tell(missing)
         folder.mkdir(parents=True, exist_ok=True)
 
 
 def remove_file(path: Path) -> None:
     """Remove a file if it exists; raises `OutputError`."""
     with _refusals_named(path):
-        path.unlink(missing_ok=True)
+        if _held is not None and _held.names:
+            _held.files.append((None, path))
+        else:
+            path.unlink(missing_ok=True)
 
 
 def _stage(path: Path, data: bytes, staged: list[tuple[Path, Path]], *, durable: bool) -> None:
     if path.is_dir():
         raise IsADirectoryError(None, "is a directory")
-    if path.exists() and not path.is_file():
-        path.write_bytes(data)
-        return
-    target = Path(os.path.realpath(path))
-    if _is_a_design(target):
-        raise FileExistsError(None, "expected a file of its own, found a design")
-    temporary = target.with_name(f".{target.name[:_NAME_PART]}.{secrets.token_hex(8)}.tmp")
+    if path.exists() and (not path.is_file() or _is_held_output(path)):
+        if _held is None or not _held.names:
+            path.write_bytes(data)
+            return
+        target, temporary = path, Path(tempfile.gettempdir(), f"{secrets.token_hex(8)}.tmp")
+    else:
+        target = Path(os.path.realpath(path))
+        if _is_a_design(target):
+            raise FileExistsError(None, "expected a file of its own, found a design")
+        temporary = target.with_name(f".{target.name[:_NAME_PART]}.{secrets.token_hex(8)}.tmp")
+    if _held is not None:
+        _held.tell(temporary)
     staged.append((temporary, target))
     with temporary.open("xb") as file:
         file.write(data)
         if durable:
             file.flush()
             os.fsync(file.fileno())
+
+
+def _is_held_output(path: Path) -> bool:
+    """Whether this is ``/dev/stdout`` or the like, which is a regular file only while output is held back."""
+    return _held is not None and any(os.path.samestat(path.stat(), os.fstat(number)) for number in (1, 2))
 
 
 def _is_a_design(path: Path) -> bool:

@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Future, wait
 from typing import Final, Protocol
 
+from fomas_verify.prover.limits import allowed_memory
 from fomas_verify.prover.processes import processes
 from fomas_verify.sweep.plan import Plan
 from fomas_verify.sweep.table import compute_part
@@ -47,6 +48,8 @@ def compute_here(plan: Plan, parts: Iterable[int], jobs: int) -> Iterator[Comput
                     yield part, future.result()
                 except BrokenExecutor:
                     lost.append(part)
+        if lost and allowed_memory() is not None:
+            raise MemoryError("a process was ended under a limit of memory")
         for part in lost:
             tries[part] += 1
         yield from ((part, None) for part in lost if tries[part] >= TRIES)

@@ -14,6 +14,7 @@ from fomas_verify.enclosure.interval import Interval
 from fomas_verify.exact.errors import FomasError
 from fomas_verify.exact.rational import format_rational
 from fomas_verify.prover import Proof, prove
+from fomas_verify.prover.limits import raise_beyond_memory
 from fomas_verify.spectrum.loop import Loop
 from fomas_verify.sweep.grid import at_row
 from fomas_verify.sweep.plan import Plan
@@ -92,8 +93,10 @@ def _proof_or_refusal(plan: Plan, design: Design, like: Loop | None) -> Proof | 
     try:
         return prove(design, digits=DIGITS, only=plan.claims, like=like)
     except FomasError as error:
+        raise_beyond_memory(error)
         return _refused(error, error.exit_status)
     except Exception as error:  # one design must not end the others
+        raise_beyond_memory(error)
         return _refused(f"{type(error).__name__}: {error}", INTERNAL)
 
 

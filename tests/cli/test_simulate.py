@@ -88,7 +88,7 @@ def test_the_csv_file(call: Verify, tmp_path: Path) -> None:
 
 def test_truncated_and_between(call: Verify, tmp_path: Path) -> None:
     path = tmp_path / "loop.csv"
-    run = call("simulate", PAPER, "--samples", 5, "--controller", "truncated", "--memory", 3, "--between", 2,
+    run = call("simulate", PAPER, "--samples", 5, "--controller", "truncated", "--keep", 3, "--between", 2,
                  "--csv", path)  # fmt: skip
     assert run.returncode == 0, run.stderr
     assert f"leaves c_M = {4**0.9 - 3**0.9:.8g} of the plant's memory" in run.stdout
@@ -231,9 +231,9 @@ def test_a_design_that_cannot_be_simulated(
         (["--samples", "10000000000000"], ["10000000000000 samples would need about", "TB of memory"]),
         (["--controller", "proposed,best"], ["'best'", "proposed, memoryless, truncated"]),
         (["--controller", ""], ["expected some of"]),
-        (["--controller", "truncated"], ["--memory M"]),
-        (["--memory", "5"], ["--memory M"]),
-        (["--memory", "-1", "--controller", "truncated"], ["--memory"]),
+        (["--controller", "truncated"], ["--keep M"]),
+        (["--keep", "5"], ["--keep M"]),
+        (["--keep", "-1", "--controller", "truncated"], ["--keep"]),
         (["--alpha-controller", "1"], ["between 0 and 1"]),
         (["--alpha-controller", "1e-999999999"], ["between 0 and 1"]),
         (["--alpha-controller", "nan"], ["between 0 and 1"]),
