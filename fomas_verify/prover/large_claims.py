@@ -200,6 +200,12 @@ def _said(text: str) -> Words:
     return lambda *_: text
 
 
+def _memory_words(loop: LargeLoop, bits: int) -> str:
+    """The threshold on beta's side of 0."""
+    upper = loop.beta(bits).lower >= 0
+    return numbers(loop, bits, "beta", "2^alpha - 1" if upper else "-sqrt(3^alpha - 2^alpha)")
+
+
 def _memory_meaning(loop: LargeLoop, bits: int) -> str:
     first = loop.beta(bits).lower > loop.threshold(bits).upper
     return memory_inequality.FIRST if first else memory_inequality.SECOND
@@ -216,9 +222,7 @@ def first_failure(loop: LargeLoop, decision: Decision) -> int | None:
 _MU = _of("mu", "1/Delta_max", "sigma", "mu lambda_max")
 RULES: dict[str, Rule] = {
     gain_bound.ID: Rule(below, _of("mu", "1/Delta_max"), _said(gain_bound.MEANING), remedies.gain_bound),
-    memory_inequality.ID: Rule(
-        _memory, _of("beta", "2^alpha - 1", "-sqrt(3^alpha - 2^alpha)"), _memory_meaning, remedies.memory
-    ),
+    memory_inequality.ID: Rule(_memory, _memory_words, _memory_meaning, remedies.memory),
     perron_eigenvalues.ID: Rule(_consensus, _MU, _said(perron_eigenvalues.MEANING), remedies.consensus),
     beta_contraction.ID: Rule(
         _contraction, _of("sigma", "beta"), _said(beta_contraction.MEANING), remedies.contraction
