@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from fomas_verify.cli.limits import limited
-from fomas_verify.cli.options import allow_outside_option, design_argument, digits_option, tell_notes
+from fomas_verify.cli.options import Count, allow_outside_option, design_argument, digits_option, tell_notes
 from fomas_verify.design import AnyDesign, Design, DesignError, LargeDesign, SwitchedDesign, UncertainDesign, read_named
 from fomas_verify.prover import LargeProof, Proof, UncertainProof, prove, prove_large, prove_uncertain
 
@@ -21,7 +21,9 @@ if TYPE_CHECKING:
 @click.command("prove")
 @design_argument
 @click.option("-o", "--output", type=click.Path(path_type=Path), metavar="CERT.json", help="write the certificate")
-@click.option("--horizon", type=click.IntRange(0, 10**9), metavar="K", help="also check (14) term by term, k = 0..K")
+@click.option(
+    "--horizon", type=Count(0, 10**9), metavar="K", help="also check (14) term by term, k = 0..K (such as 10^7)"
+)
 @click.option("--coq", type=click.Path(path_type=Path), metavar="DIR", help="write the proof as a Coq file into DIR")
 @digits_option
 @allow_outside_option

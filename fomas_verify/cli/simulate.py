@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 from importlib import import_module
 from pathlib import Path
@@ -13,7 +13,7 @@ import click
 
 from fomas_verify.cli.certified import Certified, certified_of
 from fomas_verify.cli.limits import limited
-from fomas_verify.cli.options import allow_outside_option, design_argument, json_option
+from fomas_verify.cli.options import Count, allow_outside_option, design_argument, json_option
 from fomas_verify.cli.simulate_exactly import DIGITS, Beyond, enclosed, progress_bar, to_digits
 from fomas_verify.design import Design, DesignError, read_design
 from fomas_verify.enclosure.digits import decimal
@@ -60,9 +60,7 @@ def order(_: click.Context, __: click.Parameter, value: str | None) -> Fraction 
 
 @click.command("simulate")
 @design_argument
-@click.option(
-    "--samples", type=click.IntRange(min=1), default=200, show_default=True, metavar="K", help="samples k = 0..K"
-)
+@click.option("--samples", type=Count(min=1), default=200, show_default=True, metavar="K", help="samples k = 0..K")
 @click.option(
     "--controller", "names", default="proposed,memoryless", show_default=True, callback=controllers, metavar="NAMES",
     help="some of proposed, memoryless, truncated",
@@ -112,7 +110,7 @@ def command(
     read = read_design(design, allow_outside=allow_outside)
     plant = _plant(read)
     points = max(between, POINTS_IN_FIGURES if plot is not None else 0)
-    _must_fit(plant, samples, len(names), points, table=csv_file is not None or parquet is not None)
+    _must_fit(plant, samples, len(names), points, table=parquet is not None or enclose or digits is not None)
     laws = [_law(name, keep) for name in names]
     runs = _runs(plant, laws, samples, alpha_controller, between)
     known = certified_of(read)
@@ -212,11 +210,11 @@ def _write(
     figures: dict[Path, bytes],
 ) -> None:
     from fomas_verify.report.files import make_folder, write_all
-    from fomas_verify.simulate.table import csv_bytes, parquet_bytes
+    from fomas_verify.simulate.table import csv_parts, parquet_bytes
 
-    contents = dict(figures)
+    contents: dict[Path, bytes | Iterable[bytes]] = dict(figures)
     if csv_file is not None:
-        contents[csv_file] = csv_bytes(runs) if beyond is None else beyond.csv
+        contents[csv_file] = csv_parts(runs) if beyond is None else beyond.csv
     if parquet is not None:
         contents[parquet] = parquet_bytes(runs)
     for folder in {path.parent for path in figures}:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
@@ -27,7 +27,7 @@ LONG_SAMPLES = 500
 class Beyond:
     """The table of what was computed beyond floats, and what to say of it."""
 
-    csv: bytes
+    csv: Iterable[bytes]
     lines: tuple[str, ...]
 
 
@@ -54,7 +54,7 @@ def to_digits(
 
     from fomas_verify.simulate.against import check_same
     from fomas_verify.simulate.digits import simulate_to
-    from fomas_verify.simulate.table import long_csv_bytes
+    from fomas_verify.simulate.table import long_csv_parts
 
     found = []
     for law, run in zip(laws, runs, strict=True):
@@ -64,7 +64,7 @@ def to_digits(
             )  # fmt: skip
         check_same(run, array([[[float(x) for x in xs] for xs in row] for row in long.states]), "mpmath")
         found.append(long)
-    return Beyond(long_csv_bytes(found), ())
+    return Beyond(long_csv_parts(found), ())
 
 
 def enclosed(
@@ -83,7 +83,7 @@ def enclosed(
     from fomas_verify.enclosure.digits import rounded_up
     from fomas_verify.simulate.against import check_same
     from fomas_verify.simulate.enclosed import enclose
-    from fomas_verify.simulate.table import tube_csv_bytes
+    from fomas_verify.simulate.table import tube_csv_parts
 
     tubes, lines = [], []
     for law, run in zip(laws, runs, strict=True):
@@ -94,4 +94,4 @@ def enclosed(
         check_same(run, array([[[float(x.mid) for x in xs] for xs in row] for row in tube.states]), "the enclosure")
         lines.append(f"{law.name}: each state and input enclosed within {rounded_up(tube.widest, 2)}")
         tubes.append(tube)
-    return Beyond(tube_csv_bytes(tubes, digits) if table else b"", tuple(lines))
+    return Beyond(tube_csv_parts(tubes, digits) if table else (), tuple(lines))

@@ -28,7 +28,7 @@ from fomas_verify.prover.prove import (
 from fomas_verify.spectrum.large import LargeBounds, large_bounds
 from fomas_verify.spectrum.large_loop import LargeLoop, enclosed_gain
 
-SOLVER = "scipy and qdldl"
+SOLVER = "scipy"
 MOST_BITS = 900
 """Of a value in the certificate: the checker's enclosures have 1024."""
 MOST_VECTOR_TEXT = 40 << 20

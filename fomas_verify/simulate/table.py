@@ -10,7 +10,7 @@ import io
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -22,26 +22,37 @@ from fomas_verify.simulate.errors import SimulationError
 from fomas_verify.simulate.memory import Array
 from fomas_verify.simulate.trajectory import Trajectory
 
+AT_ONCE = 1 << 16
+"""About how many cells are made into text at once."""
+
 
 @dataclass(frozen=True)
 class Samples:
-    """One controller's cells: a row of each sample's states, inputs, and states at each point of its interval."""
+    """One controller's cells from sample ``first`` on, of ``count`` in all: a row of each sample's states, inputs, and
+    states at each point of its interval.
+    """
 
     controller: str
     h: float | Fraction
+    count: int
+    first: int
     states: list[list[Any]]
     inputs: list[list[Any]]
     between: list[list[list[Any]]]
 
     def rows(self, k: int) -> Iterator[tuple[int, float, str, list[Any]]]:
         """Those of sample k: the sample, then the points between it and the next; none beyond the end."""
-        if k < len(self.states):
-            yield k, float(k * self.h), self.controller, self.states[k] + self.inputs[k]
-        if k + 1 < len(self.states):
+        if k < self.count:
+            yield k, float(k * self.h), self.controller, self.states[k - self.first] + self.inputs[k - self.first]
+        if k + 1 < self.count:
             points = len(self.between) + 1
             for i, inside in enumerate(self.between, 1):
                 t = k * self.h + i * self.h / points
-                yield k, float(t), self.controller, inside[k] + self.inputs[k]
+                yield k, float(t), self.controller, inside[k - self.first] + self.inputs[k - self.first]
+
+
+Source: TypeAlias = Callable[[int, int], Samples]
+"""From the first sample and the one after the last to the samples."""
 
 
 def header(agents: int, numbers: int, ends: Sequence[str] = ("",)) -> list[str]:
@@ -50,28 +61,31 @@ def header(agents: int, numbers: int, ends: Sequence[str] = ("",)) -> list[str]:
     return ["k", "t", "controller", *(f"{letter}_{name}{end}" for letter in "xu" for name in names for end in ends)]
 
 
-def csv_bytes(runs: Sequence[Trajectory]) -> bytes:
-    """The table as CSV; floats with 17 digits, which read back as the same floats."""
-    return _csv(header(*runs[0].states.shape[:2]), [_of_floats(run) for run in runs], lambda x: format(x, ".17g"))
+def csv_parts(runs: Sequence[Trajectory]) -> Iterator[bytes]:
+    """The table as CSV, part after part; floats with 17 digits, which read back as the same floats."""
+    shape = runs[0].states.shape
+    names, longest = header(*shape[:2]), max(run.last + 1 for run in runs)
+    return _csv(names, [_of_floats(run) for run in runs], longest, lambda x: format(x, ".17g"))
 
 
-def long_csv_bytes(runs: Sequence[LongTrajectory]) -> bytes:
+def long_csv_parts(runs: Sequence[LongTrajectory]) -> Iterator[bytes]:
     """The table with the digits that were asked for."""
-    return _csv(header(len(runs[0].states), len(runs[0].states[0])), [_of_lists(run) for run in runs], str)
+    names = header(len(runs[0].states), len(runs[0].states[0]))
+    return _csv(names, [_of_lists(run) for run in runs], _longest(runs), str)
 
 
-def tube_csv_bytes(tubes: Sequence[Tube], digits: int) -> bytes:
+def tube_csv_parts(tubes: Sequence[Tube], digits: int) -> Iterator[bytes]:
     """The table of enclosures: two columns for each number, rounded outward to so many digits. Rigorous."""
 
     def ends(x: Interval) -> str:
         return f"{rounded_down(x.lower, digits)},{rounded_up(x.upper, digits)}"
 
     names = header(len(tubes[0].states), len(tubes[0].states[0]), ("_lower", "_upper"))
-    return _csv(names, [_of_lists(tube) for tube in tubes], ends)
+    return _csv(names, [_of_lists(tube) for tube in tubes], _longest(tubes), ends)
 
 
 def parquet_bytes(runs: Sequence[Trajectory]) -> bytes:
-    """The rows of `csv_bytes` as Parquet; raises `SimulationError` where pyarrow is missing."""
+    """The rows of `csv_parts` as Parquet; raises `SimulationError` where pyarrow is missing."""
     try:
         import pyarrow
         from pyarrow import parquet
@@ -80,7 +94,7 @@ def parquet_bytes(runs: Sequence[Trajectory]) -> bytes:
             f"Parquet needs {error.name}, which the extra `sweep` brings: pip install 'fomas_verify[sweep]'"
         ) from None
     names = header(*runs[0].states.shape[:2])
-    rows = list(_rows([_of_floats(run) for run in runs]))
+    rows = list(_rows([_of_floats(run) for run in runs], 0, max(run.last + 1 for run in runs)))
     numbers = np.array([row[3] for row in rows])
     columns: dict[str, Any] = {name: [row[i] for row in rows] for i, name in enumerate(names[:3])}
     columns |= {name: numbers[:, i] for i, name in enumerate(names[3:])}
@@ -89,31 +103,44 @@ def parquet_bytes(runs: Sequence[Trajectory]) -> bytes:
     return stream.getvalue()
 
 
-def _csv(names: Sequence[str], parts: Sequence[Samples], cell: Callable[[Any], str]) -> bytes:
-    text = io.BytesIO()
-    text.write((",".join(names) + "\n").encode())
-    for k, t, controller, cells in _rows(parts):
-        text.write((f"{k},{t:.17g},{controller}," + ",".join([cell(x) for x in cells]) + "\n").encode())
-    return text.getvalue()
+def _csv(names: Sequence[str], runs: Sequence[Source], count: int, cell: Callable[[Any], str]) -> Iterator[bytes]:
+    yield (",".join(names) + "\n").encode()
+    some = max(1, AT_ONCE // (len(names) * len(runs)))
+    for start in range(0, count, some):
+        rows = _rows(runs, start, min(start + some, count))
+        lines = [f"{k},{t:.17g},{controller},{','.join(map(cell, cells))}\n" for k, t, controller, cells in rows]
+        yield "".join(lines).encode()
 
 
-def _rows(parts: Sequence[Samples]) -> Iterator[tuple[int, float, str, list[Any]]]:
-    parts = sorted(parts, key=lambda part: part.controller)
-    for k in range(max(len(part.states) for part in parts)):
+def _rows(runs: Sequence[Source], start: int, stop: int) -> Iterator[tuple[int, float, str, list[Any]]]:
+    parts = sorted((run(start, stop) for run in runs), key=lambda part: part.controller)
+    for k in range(start, stop):
         for part in parts:
             yield from part.rows(k)
 
 
-def _of_floats(run: Trajectory) -> Samples:
-    def rows(x: Array) -> list[list[float]]:
-        found: list[list[float]] = x.reshape(-1, x.shape[-1]).T.tolist()
-        return found
+def _of_floats(run: Trajectory) -> Source:
+    def samples(start: int, stop: int) -> Samples:
+        def rows(x: Array) -> list[list[float]]:
+            found: list[list[float]] = x[..., start:stop].reshape(x.shape[0] * x.shape[1], -1).T.tolist()
+            return found
 
-    return Samples(run.controller, run.h, rows(run.states), rows(run.inputs), [rows(x) for x in run.between])
+        parts = rows(run.states), rows(run.inputs), [rows(x) for x in run.between]
+        return Samples(run.controller, run.h, run.last + 1, start, *parts)
+
+    return samples
 
 
-def _of_lists(run: LongTrajectory | Tube) -> Samples:
-    def rows(part: Sequence[Sequence[Sequence[Any]]]) -> list[list[Any]]:
-        return [list(cells) for cells in zip(*(xs for row in part for xs in row), strict=True)]
+def _of_lists(run: LongTrajectory | Tube) -> Source:
+    def samples(start: int, stop: int) -> Samples:
+        def rows(part: Sequence[Sequence[Sequence[Any]]]) -> list[list[Any]]:
+            return [list(cells) for cells in zip(*(xs[start:stop] for row in part for xs in row), strict=True)]
 
-    return Samples(run.controller, run.h, rows(run.states), rows(run.inputs), [rows(x) for x in run.between])
+        parts = rows(run.states), rows(run.inputs), [rows(x) for x in run.between]
+        return Samples(run.controller, run.h, _longest([run]), start, *parts)
+
+    return samples
+
+
+def _longest(runs: Sequence[LongTrajectory | Tube]) -> int:
+    return max(len(run.states[0][0]) for run in runs)

@@ -206,3 +206,17 @@ def test_how_much_room_the_papers_design_has(verify: Verify, tmp_path: Path) -> 
     for end in (least, enough):
         assert abs(end / mu * Fraction("0.15") - Fraction("0.1745380962478151735")) < Fraction(1, 10**18)
     assert verify("check", certificate, "--design", PAPER, "--require", "design").returncode == 0
+
+
+@pytest.mark.parametrize("text", ["10^3", "1e3", "1000"])
+def test_a_horizon_as_a_power_of_ten(verify: Verify, text: str) -> None:
+    run = verify("prove", PAPER, "--horizon", text)
+    assert run.returncode == 0
+    assert "k = 0..1000" in run.stdout
+
+
+@pytest.mark.parametrize("text", ["10^10", "2^10", "1.5e3", "1e-3", "e7", "10^", "0e3", "-1e3", "1e999"])
+def test_what_is_no_horizon(verify: Verify, text: str) -> None:
+    run = verify("prove", PAPER, "--horizon", text)
+    assert (run.returncode, run.stdout) == (2, "")
+    assert "'--horizon'" in run.stderr

@@ -5,9 +5,13 @@ from typing import Any
 
 import mpmath
 import pytest
+from flint import arb, fmpq
 from mpmath import mp
 
+from fomas_verify.enclosure.horizon import _Scan, scan_horizon
 from fomas_verify.enclosure.interval import Interval
+from fomas_verify.enclosure.reference import DisagreementError
+from fomas_verify.enclosure.second_differences import BLOCK, block
 from fomas_verify.kernel.horizon import check_horizon
 
 
@@ -83,3 +87,48 @@ def test_a_wide_beta_claims_nothing() -> None:
     seen = check_horizon(Fraction(9, 10), Interval(Fraction(8, 10), Fraction(9, 10)), 3, 50)
     assert seen.first_failure is None
     assert 0 in seen.not_decided
+
+
+def far(alpha: Fraction, done: int, power: str, smallest: str) -> _Scan:
+    """A scan that has come so far, with ``beta = 0.99``."""
+    exponent = fmpq(alpha.numerator, alpha.denominator)
+    total = 1 - (arb(done + 1) ** exponent - arb(done) ** exponent)
+    return _Scan(exponent, arb(fmpq(99, 100)), done, total, arb(power), smallest=arb(smallest))
+
+
+def test_a_block_is_passed_over_only_where_its_ends_decide_it() -> None:
+    """alpha = 1/2 at k = 20 000: the terms still to come are about 0.0035, so a power of 0.004 is not decided there,
+    and with one of 0.001 the slack is above 0.7, not 0.8.
+    """
+    alpha, done = Fraction(1, 2), 20_000
+    terms = block(alpha, done + 1, 200)
+    assert terms is not None
+    for power, smallest, passed in (("0.004", "-1", False), ("0.001", "0.8", False), ("0.001", "0.7", True)):
+        scan = far(alpha, done, power, smallest)
+        assert scan.pass_over(terms) is passed
+        assert scan.done == done + BLOCK * passed
+
+
+def test_a_sum_that_does_not_telescope_is_told() -> None:
+    alpha, done = Fraction(1, 2), 20_000
+    terms = block(alpha, done + 2, 60)
+    assert terms is not None
+    with pytest.raises(DisagreementError, match="the sum of 20256 terms is not 1 - c_n"):
+        far(alpha, done, "0", "0").pass_over(terms)
+
+
+@pytest.mark.parametrize(
+    ("alpha", "beta"), [("9/10", "0.8652592538160561"), ("1/2", "-0.5638"), ("1/1000000000", "0"), ("9/10", "0.999999")]
+)
+def test_blocks_change_no_answer(alpha: str, beta: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The last case fails at once and has its least slack far out."""
+    a, b = Fraction(alpha), Interval.exactly(Fraction(beta))
+    used = []
+    monkeypatch.setattr("fomas_verify.enclosure.horizon.block", lambda *call: used.append(call) or block(*call))
+    with_blocks = scan_horizon(a, b, 30_000, 50)
+    monkeypatch.setattr("fomas_verify.enclosure.horizon.block", lambda *call: None)
+    without = scan_horizon(a, b, 30_000, 50)
+    assert used
+    assert with_blocks[:2] == without[:2]
+    assert with_blocks[2].overlaps(without[2])
+    assert with_blocks[3] == without[3]

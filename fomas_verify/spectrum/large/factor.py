@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from fomas_verify.spectrum.large.matrices import Near
 from fomas_verify.spectrum.large.ordering import Order
-from fomas_verify.spectrum.large.rounding import LARGEST, SLACK, UNDERFLOW, U, gammas
+from fomas_verify.spectrum.large.residual import residual_norm
+from fomas_verify.spectrum.large.rounding import SLACK, U
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -20,8 +21,6 @@ Solve = Callable[["NDArray[Any]"], "NDArray[Any]"]
 
 BYTES_AN_ENTRY = 64
 """What an entry of the factor takes at most, all in all: twice in the solver, twice here, once more in its product."""
-
-_BLOCKS, _BLOCK_ENTRIES = 16, 2_000_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,7 +82,7 @@ class SparseFactors:
         n, place = moved.shape[0], factor.perm_r
         if not np.array_equal(place, factor.perm_c) or sorted(place.tolist()) != list(range(n)):
             return None
-        lower, pivots = factor.L.tocsr(), factor.U.diagonal()
+        lower, pivots = factor.L, factor.U.diagonal()
         del factor
         if (pivots == 0).any() or int((pivots < 0).sum()) > most:
             return None
@@ -98,72 +97,3 @@ def _factor(matrix: Any) -> Any:
     from scipy.sparse.linalg import splu
 
     return splu(matrix, permc_spec="NATURAL", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
-
-
-def residual_norm(matrix: Any, lower: Any, pivots: Any) -> float:
-    """A bound of the 2-norm of ``matrix - lower diag(pivots) lower^T``; infinity where the three are not a factor.
-
-    Each entry on or below the diagonal is formed in doubles; its own error is at most ``gamma_(m+2) (abs lower
-    abs diag(pivots) abs lower^T)_ij``, m the entries of row i of `lower`. For T >= abs E entry by entry, T symmetric,
-    norm E is at most the largest ``(T x)_i / x_i``, for any x > 0 (Collatz). Rigorous.
-
-    Parameters
-    ----------
-    matrix : csc, symmetric
-    lower : csr, unit lower triangular
-    pivots : shape (N,)
-    """
-    import numpy as np
-    from scipy.sparse import csr_array, triu
-
-    lower = csr_array(lower)
-    lower.sort_indices()
-    sizes = abs(lower)
-    largest = max(float(abs(part).max()) for part in (lower.data, pivots, matrix.data))
-    if not largest <= LARGEST or (lower.diagonal() != 1).any() or triu(lower, k=1).nnz:
-        return float("inf")
-    x = _weights(sizes, abs(pivots))
-    hidden = gammas(np.diff(lower.indptr) + 4) * (sizes @ (abs(pivots) * (sizes.T @ x)))
-    seen = _residual_times(matrix, lower, pivots, x)
-    return float(((hidden + seen * SLACK) / x).max()) * SLACK + UNDERFLOW
-
-
-def _weights(sizes: Any, pivots: Any) -> Any:
-    """Positive weights near the dominant eigenvector of ``sizes diag(pivots) sizes^T``: any positive ones would do."""
-    import numpy as np
-
-    x = np.ones(len(pivots))
-    for _ in range(4):
-        x = sizes @ (pivots * (sizes.T @ x))
-        x = x / x.max() + 2.0**-6
-    return x
-
-
-def _residual_times(matrix: Any, lower: Any, pivots: Any, x: Any) -> Any:
-    """abs E times x, E as computed: a block of columns at a time, from its diagonal down."""
-    import numpy as np
-
-    n = len(pivots)
-    scaled = lower.copy()
-    scaled.data = scaled.data * pivots[scaled.indices]
-    sums = np.zeros(n)
-    for start, end in _blocks(lower):
-        tail = lower[start:]
-        product = tail @ scaled[start:end].T.tocsr()
-        apart = abs(product - matrix[start:, start:end].tocsr())
-        sums[start:] += apart @ x[start:end]
-        sums[start:end] += apart[end - start :].T @ x[end:]
-    return sums
-
-
-def _blocks(lower: Any) -> list[tuple[int, int]]:
-    """Ranges of columns with about the same number of entries of the factor."""
-    import numpy as np
-
-    n = lower.shape[0]
-    cumulative = np.cumsum(np.bincount(lower.indices, minlength=n))
-    total = int(cumulative[-1])
-    size = max(1, min(_BLOCK_ENTRIES, total // _BLOCKS))
-    ends = np.searchsorted(cumulative, np.arange(size, total, size)) + 1
-    edges = np.unique(np.concatenate([[0], ends, [n]]))
-    return list(zip(edges[:-1].tolist(), edges[1:].tolist(), strict=True))
