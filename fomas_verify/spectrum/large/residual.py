@@ -14,7 +14,7 @@ from itertools import pairwise
 from math import sqrt
 from typing import TYPE_CHECKING, Any
 
-from fomas_verify.spectrum.large.fronts import Fronts, fronts
+from fomas_verify.spectrum.large.fronts import Fronts
 from fomas_verify.spectrum.large.rounding import LARGEST, SLACK, UNDERFLOW, U, gammas
 
 if TYPE_CHECKING:
@@ -26,7 +26,7 @@ _TERMS = 48
 _STEPS, _LEAST = 4, 2.0**-6
 
 
-def residual_norm(matrix: Any, lower: Any, pivots: NDArray[Any]) -> float:
+def residual_norm(matrix: Any, lower: Any, pivots: NDArray[Any], ranges: Fronts) -> float:
     """A bound of the 2-norm of E; infinity where U is not unit lower triangular, or a number is out of range. Rigorous.
 
     Parameters
@@ -34,6 +34,7 @@ def residual_norm(matrix: Any, lower: Any, pivots: NDArray[Any]) -> float:
     matrix : csc, exactly symmetric, sorted
     lower : csc, U
     pivots : d, shape (N,)
+    ranges : of columns; any give a true bound
     """
     from scipy.sparse import csc_array, triu
 
@@ -43,7 +44,7 @@ def residual_norm(matrix: Any, lower: Any, pivots: NDArray[Any]) -> float:
     in_range = all(bool((abs(part) <= LARGEST).all()) for part in (lower.data, pivots, matrix.data))
     if not in_range or (lower.diagonal() != 1).any() or triu(lower, k=1).nnz:
         return float("inf")
-    product = _Product(matrix, lower, pivots, fronts(lower))
+    product = _Product(matrix, lower, pivots, ranges)
     product.form()
     sizes, heights = abs(lower), abs(pivots)
     x = _weights(sizes, heights)
