@@ -1,9 +1,11 @@
 """A design: what is to be decided about, in exact numbers."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from fractions import Fraction
-from typing import Final, TypeAlias, overload
+from typing import Any, Final, TypeAlias, overload
 
 from fomas_verify.design.errors import DesignError
 from fomas_verify.design.fields import shown
@@ -117,6 +119,11 @@ class LargeDesign(Given):
 
     graph: LargeGraph
 
+    @classmethod
+    def of(cls, design: Design) -> LargeDesign:
+        """The same design, to be decided from bounds whatever its size."""
+        return cls(**_given(design), graph=LargeGraph(listed=design.graph))
+
     def listed(self, *, most: int = MAX_LISTED_AGENTS) -> Design:
         """The same with one Python object an edge, for what needs that; raises `DesignError` beyond `most` agents."""
         agents = self.graph.agents
@@ -124,8 +131,11 @@ class LargeDesign(Given):
             what = f"{shown(agents)} agents, more than {most}," if agents > most else f"{self.graph.edge_count} edges"
             only = "only prove, check, gate and kernel take them"
             raise DesignError(f"{self.source}: graph: {what} are not supported yet here: {only}")
-        given = {field.name: getattr(self, field.name) for field in fields(Given)}
-        return Design(**given, graph=self.graph.digraph())
+        return Design(**_given(self), graph=self.graph.digraph())
+
+
+def _given(design: Given) -> dict[str, Any]:
+    return {field.name: getattr(design, field.name) for field in fields(Given)}
 
 
 @dataclass(frozen=True)

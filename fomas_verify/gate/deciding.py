@@ -164,7 +164,7 @@ def _decided(named: AnyDesign, answer: Result, options: Options) -> Result:
     if options.baseline is not None:
         former_file = certificate_file(options.baseline, answer.name)
         if os.path.lexists(former_file):
-            findings += shrunk_margins(former_file, answer.required, answer.certificate, options.loss)
+            findings += shrunk_margins(former_file, answer.required, answer.certificate, options.loss, options.numeric)
         elif options.new_ok:
             answer = replace(answer, note="; ".join(filter(None, ("new: no baseline", answer.note))))
         else:
