@@ -61,3 +61,20 @@ def test_the_argument_is_rounded_outward(monkeypatch: pytest.MonkeyPatch) -> Non
             for bits in (-4, -2, 1):
                 found = versine.__wrapped__(Fraction(p, q), bits)
                 assert real(found.lower) - TWO**-190 <= exact <= real(found.upper) + TWO**-190, (p, q, bits)
+
+
+def test_rational_values_are_exact() -> None:
+    known = {"1": 2, "2/3": "3/2", "1/2": 1, "1/3": "1/2"}
+    for x, value in known.items():
+        found = versine(Fraction(x), 64)
+        assert found.lower == found.upper == Fraction(value)
+    for x in ("1/4", "1/5", "2/5", "1/6", "5/6", "3/4"):
+        assert versine(Fraction(x), 64).lower < versine(Fraction(x), 64).upper
+
+
+def test_the_width_is_relative() -> None:
+    """However small the number: that many of its leading bits are known."""
+    for q in (7, 316, 10**6, 10**12, 2**60 + 1):
+        for bits in (1, 64, 200):
+            found = versine(Fraction(1, q), bits)
+            assert 0 < found.upper - found.lower < found.lower / 2**bits
