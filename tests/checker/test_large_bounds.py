@@ -13,6 +13,7 @@ import mpmath
 import numpy as np
 import pytest
 
+from fomas_verify.checker import large_bounds
 from fomas_verify.checker.edge_list import network_of
 from fomas_verify.checker.families import Family
 from fomas_verify.checker.large import _consensus, _contraction, _norm_bound, _redone
@@ -20,6 +21,7 @@ from fomas_verify.checker.large_bounds import Known, LargeGraph
 from fomas_verify.checker.large_form import LargeDesign
 from fomas_verify.checker.network import Network
 from fomas_verify.checker.powers import Enclosure
+from fomas_verify.checker.ruling import Undecided
 from tests.checker.large_networks import family_edges, laplacian
 
 BITS = 128
@@ -335,3 +337,13 @@ def test_a_state_of_two_dimensions_moves_where_one_does() -> None:
     assert one == six is not None
     still = Known(about(x0=tuple((F(1), F(2)) for _ in range(4))), LargeGraph(None, listed("directed-cycle", 4)))
     assert still.error_quotients is None
+
+
+def test_a_state_is_as_long_as_its_entries_over_one_denominator(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Four entries of at most three bits, and two bits of a common denominator 3."""
+    state = tuple((x,) for x in (F(1, 3), F(7), F(0), F(0)))
+    monkeypatch.setattr(large_bounds, "MAX_STATE_BITS", 20)
+    assert Known(about(x0=state), LargeGraph(Family("cycle", 4, None), None)).error_quotients is not None
+    monkeypatch.setattr(large_bounds, "MAX_STATE_BITS", 19)
+    with pytest.raises(Undecided, match="so large a common denominator"):
+        _ = Known(about(x0=state), LargeGraph(Family("cycle", 4, None), None)).error_quotients

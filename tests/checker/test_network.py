@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 from fomas_verify.checker import Malformed, edge_list, large_bounds, large_form
+from fomas_verify.checker import network as network_module
 from fomas_verify.checker.edge_list import read_edge_list
 from fomas_verify.checker.network import Network
 from tests.checker.large_networks import certificate, checked, design, file_graph
@@ -135,6 +136,7 @@ def test_the_denominator_has_its_limit(bits: int, monkeypatch: pytest.MonkeyPatc
 def test_the_limits_are_those_that_the_format_names() -> None:
     assert (large_form.MAX_AGENTS, large_form.MAX_EDGES, edge_list.MAX_EDGES) == (2**22, 2**24, 2**24)
     assert (edge_list.MAX_FILE_BYTES, edge_list.MAX_DENOMINATOR_BITS) == (2**29, 2**12)
+    assert (network_module.MAX_AGENTS, network_module.MAX_EDGES) == (2**22, 2**24)
     assert large_bounds.MAX_STATE_BITS == 2**30
 
 
