@@ -20,7 +20,7 @@ ROOT = Path(__file__).resolve().parent.parent
 PAGES = ("CHANGELOG.md", "CONTRIBUTING.md", "SECURITY.md", "proofs/README.md")
 LINK = re.compile(r"(?<!!)\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^()\s]+)\)")
 FENCE = re.compile(r"^(```+).*?^\1$", re.MULTILINE | re.DOTALL)
-LISTING = HtmlFormatter(linenos="inline", lineanchors="L", anchorlinenos=True)
+LISTING = HtmlFormatter(linenos="inline", lineanchors="L", anchorlinenos=True, wrapcode=True)
 COQ = """---
 search:
   exclude: true

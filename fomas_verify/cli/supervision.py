@@ -218,6 +218,7 @@ def _work(run: Run, limits: Limits, room: str, told: int, life: int, streams: tu
     sys.stderr.flush()
     files = [(None if x is None else str(x), str(y)) for x, y in held.files]
     tell(status=status, message=message, memory=memory, files=files)
+    os.read(life, 1)  # the files are locked as long as this process lives, so it waits to be ended
 
 
 def _outcome(run: Run, limits: Limits) -> tuple[int, str, bool]:

@@ -122,29 +122,29 @@ def _drawing(
 
 @contextmanager
 def _listener(folder: Path) -> Iterator[Listener]:
-    """On a terminal a bar; at an interruption, where the rows are and how to go on."""
+    """On a terminal a bar; at an interruption, where the rows are and how to go on, once the bar is gone."""
     from fomas_verify.sweep.run import Listener
 
     seen = [0, 0]
+    try:
+        with _bar() as (bar, say):
 
-    def say(words: str) -> None:
-        click.echo(f"verify-design: {words}", err=True)
+            def rows(done: int, total: int) -> None:
+                seen[:] = done, total
+                bar(done, total)
 
-    with _bar() as bar:
-
-        def rows(done: int, total: int) -> None:
-            seen[:] = done, total
-            bar(done, total)
-
-        try:
             yield Listener(rows, say)
-        except (KeyboardInterrupt, SystemExit):
-            say(f"interrupted: {seen[0]} of {seen[1]} rows are in {folder}; the same call computes the others")
-            raise
-        except Exception:
-            if 0 < seen[0] < seen[1]:
-                say(f"{seen[0]} of {seen[1]} rows are in {folder}; the same call computes the others")
-            raise
+    except (KeyboardInterrupt, SystemExit):
+        _say(f"interrupted: {seen[0]} of {seen[1]} rows are in {folder}; the same call computes the others")
+        raise
+    except Exception:
+        if 0 < seen[0] < seen[1]:
+            _say(f"{seen[0]} of {seen[1]} rows are in {folder}; the same call computes the others")
+        raise
+
+
+def _say(words: str) -> None:
+    click.echo(f"verify-design: {words}", err=True)
 
 
 def _no_bar(_done: int, _total: int) -> None:
@@ -152,17 +152,25 @@ def _no_bar(_done: int, _total: int) -> None:
 
 
 @contextmanager
-def _bar() -> Iterator[Any]:
+def _bar() -> Iterator[tuple[Any, Any]]:
+    """What is told the rows done and all rows, and what says words above the bar."""
     if sys.stderr is None or not sys.stderr.isatty():
-        yield _no_bar
+        yield _no_bar, _say
         return
     try:
         from rich.console import Console
         from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
     except ImportError:
-        yield _no_bar
+        yield _no_bar, _say
         return
     columns = (BarColumn(), MofNCompleteColumn(), "rows", TimeRemainingColumn())
-    with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
+    console = Console(stderr=True, markup=False, highlight=False, soft_wrap=True)
+    if console.is_dumb_terminal:
+        yield _no_bar, _say
+        return
+    with Progress(*columns, console=console, transient=True) as progress:
         task = progress.add_task("rows")
-        yield lambda done, total: progress.update(task, completed=done, total=total)
+        yield (
+            lambda done, total: progress.update(task, completed=done, total=total),
+            lambda words: console.print(f"verify-design: {words}"),
+        )

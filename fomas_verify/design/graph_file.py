@@ -13,10 +13,14 @@ from typing import TYPE_CHECKING
 
 from fomas_verify.design.errors import DesignError
 from fomas_verify.design.fields import Place
+from fomas_verify.exact.rational import excerpt
 from fomas_verify.network import GraphError
 
 if TYPE_CHECKING:
     from fomas_verify.network.files import GraphFile
+
+
+_LONGEST_SHOWN = 255
 
 
 @dataclass(frozen=True)
@@ -50,10 +54,11 @@ def read_file(graph: Mapping[str, object], place: Place, folder: Folder | None) 
         _text(graph[key], place.key(key), what) if key in graph else None
         for key, what in {"orientation": "from-to, hears or both-ways", "variable": "the name of a matrix"}.items()
     )
+    called = name if len(name) <= _LONGEST_SHOWN else excerpt(name)
     try:
-        check_call(name, orientation, variable, name)
+        check_call(name, orientation, variable, called)
         path = _found(name, where, folder)
-        return read_graph_file(path, orientation, variable=variable, name=name)
+        return read_graph_file(path, orientation, variable=variable, name=called)
     except GraphError as error:
         raise DesignError(f"{where}: {error}") from None
 

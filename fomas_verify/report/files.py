@@ -1,5 +1,8 @@
 """Files written whole or not at all: under a temporary name first, then renamed. No output takes a design's place.
 
+A process that is killed leaves `.NAME.<16 hex digits>.tmp`. Whoever writes holds a lock on it, which the system lets go
+of when the process ends; so the next process that writes NAME knows what is left over, and removes it.
+
 A run that may be ended by a limit holds its files back: they keep their temporary names until it has ended, and whoever
 watches over it is told every name before it is made, to remove it where the run does not end by itself.
 """
@@ -9,15 +12,20 @@ from __future__ import annotations
 import os
 import re
 import secrets
+import stat
+import sys
 import tempfile
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass, field
+from functools import cache
+from io import FileIO
 from pathlib import Path
 
 from fomas_verify.exact.errors import FomasError
 
 _NAME_PART = 40
+_UNFINISHED = re.compile(r"\.(.{0,40})\.[0-9a-f]{16}\.tmp", re.DOTALL)
 _LOOKED_AT = 1 << 20
 _ALPHA = re.compile(rb'(?:^|[{,\n])\s*"?alpha"?\s*[=:]')
 _GRAPH = re.compile(rb'(?:^|[{,\n])\s*(?:"graphs?"\s*:|graphs?\s*[=.]|\[+\s*graphs?\s*[\].])')
@@ -27,12 +35,13 @@ _CERTIFICATE = re.compile(rb'"format"\s*:\s*"fomas-certificate/')
 @dataclass
 class Held:
     """What is held back: each file under its temporary name, with the path it is meant for; None in place of the first
-    where a file is to be removed.
+    where a file is to be removed. The files stay open, and so locked, until the process ends.
     """
 
     tell: Callable[[Path], None]
     names: bool
     files: list[tuple[Path | None, Path]] = field(default_factory=list)
+    locks: ExitStack = field(default_factory=ExitStack)
 
 
 _held: Held | None = None
@@ -88,22 +97,24 @@ def write_all(contents: Mapping[Path, bytes | Iterable[bytes]], *, durable: bool
     `OutputError`.
     """
     staged: list[tuple[Path, Path]] = []
-    try:
-        for path, data in contents.items():
-            with _refusals_named(path):
-                _stage(path, data, staged, durable=durable)
-        if _held is not None and _held.names:
-            _held.files += staged
-            staged.clear()
-        while staged:
-            temporary, path = staged[0]
-            with _refusals_named(path):
-                temporary.replace(path)
-            del staged[0]
-    finally:
-        for temporary, _ in staged:
-            with suppress(OSError):
-                temporary.unlink(missing_ok=True)
+    with ExitStack() as files:
+        try:
+            for path, data in contents.items():
+                with _refusals_named(path):
+                    _stage(path, data, staged, files, durable=durable)
+            if _held is not None and _held.names:
+                _held.files += staged
+                _held.locks.push(files.pop_all())
+                staged.clear()
+            while staged:
+                temporary, path = staged[0]
+                with _refusals_named(path):
+                    temporary.replace(path)
+                del staged[0]
+        finally:
+            for temporary, _ in staged:
+                with suppress(OSError):
+                    temporary.unlink(missing_ok=True)
 
 
 def make_folder(folder: Path) -> None:
@@ -124,29 +135,89 @@ def remove_file(path: Path) -> None:
             path.unlink(missing_ok=True)
 
 
-def _stage(path: Path, data: bytes | Iterable[bytes], staged: list[tuple[Path, Path]], *, durable: bool) -> None:
+def _stage(
+    path: Path, data: bytes | Iterable[bytes], staged: list[tuple[Path, Path]], files: ExitStack, *, durable: bool
+) -> None:
     if path.is_dir():
         raise IsADirectoryError(None, "is a directory")
     parts = (data,) if isinstance(data, bytes) else data
     if path.exists() and (not path.is_file() or _is_held_output(path)):
         if _held is None or not _held.names:
-            with path.open("wb") as file:
-                file.writelines(parts)
+            with path.open("wb") as stream:
+                stream.writelines(parts)
             return
-        target, temporary = path, Path(tempfile.gettempdir(), f"{secrets.token_hex(8)}.tmp")
+        target, place = path, Path(tempfile.gettempdir(), path.name)
     else:
-        target = Path(os.path.realpath(path))
+        target = place = Path(os.path.realpath(path))
         if _is_a_design(target):
             raise FileExistsError(None, "expected a file of its own, found a design")
-        temporary = target.with_name(f".{target.name[:_NAME_PART]}.{secrets.token_hex(8)}.tmp")
-    if _held is not None:
-        _held.tell(temporary)
+        _remove_leftovers(target)
+    temporary, file = _locked_temporary(place)
+    files.enter_context(file)
     staged.append((temporary, target))
-    with temporary.open("xb") as file:
-        file.writelines(parts)
-        if durable:
-            file.flush()
-            os.fsync(file.fileno())
+    for part in parts:
+        rest = memoryview(part)
+        while rest:
+            rest = rest[file.write(rest) :]
+    if durable:
+        os.fsync(file.fileno())
+    if sys.platform == "win32":
+        file.close()  # an open file cannot be renamed there
+
+
+def _locked_temporary(target: Path) -> tuple[Path, FileIO]:
+    """A new file beside the target, open and locked; a further one where it was taken for a leftover before the lock.
+
+    It has no buffer: closing it writes nothing, and so cannot fail.
+    """
+    while True:
+        temporary = target.with_name(f".{target.name[:_NAME_PART]}.{secrets.token_hex(8)}.tmp")
+        if _held is not None:
+            _held.tell(temporary)
+        file = temporary.open("xb", buffering=0)
+        _lock(file.fileno(), wait=True)
+        if os.fstat(file.fileno()).st_nlink or sys.platform == "win32":
+            return temporary, file
+        file.close()
+
+
+def _remove_leftovers(target: Path) -> None:
+    """Remove the temporaries of this name that no living process holds."""
+    if sys.platform == "win32":
+        return
+    for name in _unfinished(target.parent).get(target.name[:_NAME_PART], ()):
+        with suppress(OSError):
+            # Opened for writing, because some network file systems lock nothing else.
+            descriptor = os.open(target.with_name(name), os.O_RDWR | os.O_NOFOLLOW | os.O_NONBLOCK)
+            try:
+                if stat.S_ISREG(os.fstat(descriptor).st_mode) and _lock(descriptor, wait=False):
+                    target.with_name(name).unlink()
+            finally:
+                os.close(descriptor)
+
+
+@cache
+def _unfinished(folder: Path) -> dict[str, list[str]]:
+    """The temporaries by target when this process first wrote there: a folder is listed once, not for each file."""
+    found: dict[str, list[str]] = {}
+    with suppress(OSError):  # a folder may be writable and not readable
+        for path in folder.iterdir():
+            if match := _UNFINISHED.fullmatch(path.name):
+                found.setdefault(match[1], []).append(path.name)
+    return found
+
+
+def _lock(descriptor: int, *, wait: bool) -> bool:
+    """Whether a file is ours now; a file system without locks has none, and then nothing is removed."""
+    if sys.platform == "win32":
+        return False
+    import fcntl
+
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX if wait else fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        return False
+    return True
 
 
 def _is_held_output(path: Path) -> bool:

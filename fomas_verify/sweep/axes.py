@@ -71,16 +71,17 @@ def read_numbers(name: str, value: object, place: Place) -> Axis:
 
 def read_agents(value: object, place: Place) -> tuple[int, ...]:
     """Read a list, or a range that meets integers only, of numbers of agents; raises `DesignError`."""
-
-    def agents(entry: object, here: Place) -> int:
-        return count(entry, here, 2, MAX_AGENTS)
-
     if not isinstance(value, Mapping):
-        return tuple(_list(value, place, agents))
+        return tuple(_list(value, place, read_agents_of_one))
     span = _span(value, place, number)
     if span.start.denominator * span.step.denominator != 1 or not 2 <= span.start <= span.end <= MAX_AGENTS:
         raise place.expected(f"a range of integers between 2 and {MAX_AGENTS}", value)
     return tuple(int(span[i]) for i in range(len(span)))
+
+
+def read_agents_of_one(value: object, place: Place) -> int:
+    """Read the number of agents of one graph; raises `DesignError`."""
+    return count(value, place, 2, MAX_AGENTS)
 
 
 def read_families(value: object, place: Place) -> tuple[str, ...]:
@@ -90,12 +91,13 @@ def read_families(value: object, place: Place) -> tuple[str, ...]:
 
 def read_shapes(value: object, place: Place) -> tuple[tuple[int, int], ...]:
     """Read a list of shapes [rows, columns]; raises `DesignError`."""
+    return tuple(_list(value, place, read_shape))
 
-    def shape(entry: object, here: Place) -> tuple[int, int]:
-        rows, columns = sequence(entry, here, "two integers [rows, columns]", 2)
-        return count(rows, here.item(0), 1), count(columns, here.item(1), 1)
 
-    return tuple(_list(value, place, shape))
+def read_shape(value: object, place: Place) -> tuple[int, int]:
+    """Read one shape; raises `DesignError`."""
+    rows, columns = sequence(value, place, "two integers [rows, columns]", 2)
+    return count(rows, place.item(0), 1), count(columns, place.item(1), 1)
 
 
 def _list(value: object, place: Place, read: Callable[[object, Place], T]) -> list[T]:

@@ -21,7 +21,15 @@ from fomas_verify.design.graph_file import Folder, folder_of
 from fomas_verify.design.graph_table import read_graph
 from fomas_verify.exact.rational import format_rational
 from fomas_verify.network import SHAPED_FAMILIES
-from fomas_verify.sweep.axes import Axis, read_agents, read_families, read_numbers, read_shapes
+from fomas_verify.sweep.axes import (
+    Axis,
+    read_agents,
+    read_agents_of_one,
+    read_families,
+    read_numbers,
+    read_shape,
+    read_shapes,
+)
 
 NUMBERS: Final = ("alpha", "gamma", "mu", "h")
 OF_GRAPHS: Final = ("family", "agents", "shape")
@@ -176,8 +184,15 @@ def _with_edges(
 
 def _graphs(swept: Mapping[str, object], base: Mapping[str, object], place: Place) -> tuple[GraphKeys, ...]:
     """Each family with each of its sizes: the shapes for torus and grid, the numbers of agents for the others."""
+    graph = Place(place.source).key("graph")
     given = base.get("graph", {})
+    if any(key in swept for key in OF_GRAPHS) and not isinstance(given, Mapping):
+        raise graph.expected("a table", given)
     given = given if isinstance(given, Mapping) else {}
+    if "family" in swept:  # no family may need it, so nobody else would read it
+        for key, read in (("agents", read_agents_of_one), ("shape", read_shape)):
+            if key in given:
+                read(given[key], graph.key(key))
     for key in OF_GRAPHS:
         if key in swept and key in given:
             raise DesignError(f"{place.key(key)}: expected {key} either in [grid] or in [graph], got both")

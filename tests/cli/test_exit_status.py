@@ -157,7 +157,7 @@ TABLE: dict[str, dict[int, list[tuple[str, str]]]] = {
         130: [("init other", INTERRUPT.format("cli.init", "write_whole"))],
     },
     "schema": {
-        0: [("schema design", ""), ("schema certificate", "")],
+        0: [("schema design", ""), ("schema certificate", ""), ("schema grid", "")],
         2: [("schema", ""), ("schema graph", "")],
         4: [("schema design", SCHEMA)],
         130: [("schema design", INTERRUPT.format("cli.schema", "files"))],

@@ -11,6 +11,7 @@ from subprocess import CompletedProcess
 import pytest
 
 from fomas_verify.cli.app import COMMANDS
+from fomas_verify.sweep.grid_schema import grid_schema
 
 Verify = Callable[..., CompletedProcess[str]]
 PAPER = "examples/paper.toml"
@@ -61,6 +62,12 @@ def test_schema_prints_what_the_package_ships(verify: Verify, checkout: Path, ki
     assert json.loads(run.stdout)["title"] == f"fomas-{kind}/1"
 
 
+def test_schema_prints_that_of_grids(verify: Verify) -> None:
+    run = verify("schema", "grid")
+    assert (run.returncode, run.stderr) == (0, "")
+    assert json.loads(run.stdout) == grid_schema()
+
+
 @pytest.mark.parametrize(
     ("words", "expected"),
     [
@@ -69,7 +76,7 @@ def test_schema_prints_what_the_package_ships(verify: Verify, checkout: Path, ki
         (["gate", "--ju"], ["--junit"]),
         (["gate", "--require", "gain"], ["gain-bound"]),
         (["check", "--require", "gain-bound,perr"], ["gain-bound,perron-eigenvalues"]),
-        (["schema", ""], ["design", "certificate"]),
+        (["schema", ""], ["design", "certificate", "grid"]),
         (["completion", "z"], ["zsh"]),
         (["nothing"], []),
     ],

@@ -17,6 +17,9 @@ from random import Random
 LARGEST = 1_000_000
 """Bytes of an input at most."""
 
+MOST_PLACES = 3000
+"""Of a tree that is changed once more: a change may repeat a part 300 times."""
+
 NUMBERS = [
     *(
         "0",
@@ -228,6 +231,8 @@ def _by_tree(data: bytes, other: bytes, random: Random) -> bytes:
             holder, key = random.choice(places)
             _change(holder, key, tree_of(other), random)
             places = list(_places(tree)) or [(tree, "alpha")]
+            if len(places) > MOST_PLACES:
+                break
         return json.dumps(tree, default=str, ensure_ascii=random.random() < 0.5).encode("utf-8", "surrogatepass")
     except (ValueError, RecursionError):
         return data

@@ -1,5 +1,6 @@
 """A file is written whole or not at all, and what cannot be written is said in one line."""
 
+import fcntl
 import os
 import stat
 from pathlib import Path
@@ -83,6 +84,80 @@ def test_an_interruption_leaves_the_former_file(tmp_path: Path, monkeypatch: pyt
         write_whole(file, b"new")
     assert file.read_bytes() == b"old"
     assert names(tmp_path) == ["a"]
+
+
+LEFT = ".a.json.0123456789abcdef.tmp"
+
+
+def test_what_a_killed_process_left_is_removed_by_the_next_that_writes_this_file(tmp_path: Path) -> None:
+    others = [
+        ".b.json.0123456789abcdef.tmp",
+        ".a.json.0123456789ABCDEF.tmp",
+        ".a.json.tmp",
+        "a.json.0123456789abcdef.tmp",
+    ]
+    for name in (LEFT, *others):
+        (tmp_path / name).write_bytes(b"half")
+    write_whole(tmp_path / "a.json", b"whole")
+    assert names(tmp_path) == sorted(["a.json", *others])
+
+
+def test_a_temporary_file_that_another_process_is_writing_stays(tmp_path: Path) -> None:
+    with (tmp_path / LEFT).open("wb") as held:
+        fcntl.flock(held, fcntl.LOCK_EX)
+        write_whole(tmp_path / "a.json", b"whole")
+        assert names(tmp_path) == [LEFT, "a.json"]
+
+
+def test_no_link_is_followed_and_no_folder_removed_in_place_of_a_leftover(tmp_path: Path) -> None:
+    (tmp_path / "precious").write_bytes(b"kept")
+    (tmp_path / LEFT).symlink_to("precious")
+    folder = tmp_path / LEFT.replace("0", "f")
+    folder.mkdir()
+    write_whole(tmp_path / "a.json", b"whole")
+    assert (tmp_path / "precious").read_bytes() == b"kept"
+    assert names(tmp_path) == sorted([LEFT, folder.name, "a.json", "precious"])
+
+
+def test_a_temporary_file_is_held_while_it_is_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """So that another process does not take it for a leftover."""
+    seen = []
+
+    def replace(temporary: Path, target: Path) -> None:
+        with temporary.open("r+b") as file, pytest.raises(BlockingIOError):
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        seen.append(target.name)
+
+    monkeypatch.setattr(Path, "replace", replace)
+    write_all({tmp_path / "a": b"1", tmp_path / "b": b"2"})
+    assert seen == ["a", "b"]
+
+
+def test_one_that_was_removed_before_it_was_held_is_made_anew(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    removed = []
+
+    def flock(descriptor: int, _: int) -> None:
+        if not removed:
+            removed.append(next(tmp_path.glob(".a.*.tmp")))
+            removed[0].unlink()
+
+    monkeypatch.setattr(fcntl, "flock", flock)
+    write_whole(tmp_path / "a", b"whole")
+    assert removed
+    assert (tmp_path / "a").read_bytes() == b"whole"
+    assert names(tmp_path) == ["a"]
+
+
+def test_a_file_system_without_locks_is_written_to_and_nothing_is_removed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def flock(*_: object) -> None:
+        raise OSError(95, "Operation not supported")
+
+    monkeypatch.setattr(fcntl, "flock", flock)
+    (tmp_path / LEFT).write_bytes(b"perhaps another's")
+    write_whole(tmp_path / "a.json", b"whole")
+    assert names(tmp_path) == [LEFT, "a.json"]
 
 
 def test_a_full_device_is_refused() -> None:

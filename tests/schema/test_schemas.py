@@ -92,20 +92,21 @@ def decimal(text: str) -> object:
     return text if text.strip("+-") in ("inf", "nan") else Decimal(text.replace("_", ""))
 
 
+def written(value: Any) -> Any:
+    """A document as the parsers get it, from decimals."""
+    match value:
+        case Decimal():
+            return Number(str(value))
+        case dict():
+            return {key: written(entry) for key, entry in value.items()}
+        case list():
+            return [written(entry) for entry in value]
+        case _:
+            return value
+
+
 def design_refusal(document: object) -> str:
     """Why the parser refuses a design, whose numbers are decimals here; empty where it does not."""
-
-    def written(value: Any) -> Any:
-        match value:
-            case Decimal():
-                return Number(str(value))
-            case dict():
-                return {key: written(entry) for key, entry in value.items()}
-            case list():
-                return [written(entry) for entry in value]
-            case _:
-                return value
-
     try:
         named_from_mapping(written(document), "d", Folder(FILES))
     except DesignError as error:
@@ -159,6 +160,7 @@ MORE = [
     {"alpha": "9/10", "mu": "+1e-3", "graph": {"agents": 3, "edges": []}},
     {"alpha": Decimal("0.5"), "gamma": 1, "h": "3/2", "graph": {"adjacency": [[0, "-0"], ["1/2", "0.0"]]}},
     {"alpha": ["1/2", "3/5"], "mu": [1, 2], "graph": {"family": "hypercube", "agents": 8}, "gate": {}},
+    {"alpha": "1/2", "graph": {"family": "hypercube", "agents": 8192}},
     {"alpha": "0.5", "graph": {"family": "torus", "shape": [3, 4], "agents": 12}, "x0": [[1, 2]] * 12},
     {"alpha": "0.5", "graph": {"family": "grid", "shape": [1, 2]}, "x0": [1, "1/3"], "horizon": 0, "settle_to": "1/2"},
     {
@@ -191,6 +193,13 @@ BASES = [*GOOD.values(), *MORE, tomllib.loads(TEMPLATE.format(name=NAME), parse_
 def test_both_accept_a_good_design(document: dict[str, Any]) -> None:
     assert design_refusal(document) == ""
     DESIGNS.validate(document)
+
+
+@pytest.mark.parametrize(("name", "agents"), [("complete", 513), ("hypercube", 8191), ("cycle", 10_001)])
+def test_both_refuse_a_family_of_a_size_it_cannot_have(name: str, agents: int) -> None:
+    document = {"alpha": "1/2", "graph": {"family": name, "agents": agents}}
+    assert design_refusal(document)
+    assert not DESIGNS.is_valid(document)
 
 
 @pytest.mark.parametrize("name", BAD)

@@ -11,6 +11,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any, Final
 
+from fomas_verify.exact.rational import shortened
 from fomas_verify.network.files.entries import BOTH_WAYS, FROM_TO, HEARS, ORIENTATIONS, Entries, assemble
 from fomas_verify.network.files.refusals import GraphFileError, must_be_file, name_of, need_extra, refused
 from fomas_verify.network.sparse import SparseDigraph
@@ -77,7 +78,7 @@ def check_call(file: str, orientation: str | None, variable: str | None, name: s
     """The ending of a file's name; refuse what does not go with it, a matrix without orientation too."""
     ending = Path(file).suffix.lower()
     if ending not in FORMATS:
-        raise refused(name, f"a name that ends in one of {', '.join(FORMATS)}", ending or "no ending")
+        raise refused(name, f"a name that ends in one of {', '.join(FORMATS)}", shortened(ending) or "no ending")
     if orientation is None and ending in MATRIX_FORMATS:
         raise refused(
             name, 'orientation = "hears" (row i holds whom i hears) or "from-to" (row i holds who hears i)',

@@ -1,0 +1,99 @@
+"""What a sparse factor shows of the eigenvalues of a symmetric matrix; the program that made it is not believed.
+
+``A + E = U diag(d) U^T``, U unit lower triangular in the order of elimination. Source: docs/theory.md, section 14.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from fomas_verify.spectrum.large.matrices import Near
+from fomas_verify.spectrum.large.ordering import Order
+from fomas_verify.spectrum.large.residual import residual_norm
+from fomas_verify.spectrum.large.rounding import SLACK, U
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+Solve = Callable[["NDArray[Any]"], "NDArray[Any]"]
+
+BYTES_AN_ENTRY = 64
+"""What an entry of the factor takes at most, all in all: twice in the solver, twice here, once more in its product."""
+
+
+@dataclass(frozen=True, eq=False)
+class SparseFactors:
+    """Factors of matrices of one pattern."""
+
+    order: Order
+    prefers_no_factor: ClassVar[bool] = False
+
+    def expected_error(self, near: Near) -> float:
+        """None to speak of."""
+        return 0.0
+
+    def solve_near_zero(self, near: Near, shift: float) -> Solve:
+        """Apply the inverse of ``A + shift I``, as floats do. Raises RuntimeError where that is singular."""
+        rows = self.order.rows
+        factor = _factor(self._moved(near, shift))
+
+        def solve(x: NDArray[Any]) -> NDArray[Any]:
+            import numpy as np
+
+            y = np.empty_like(x)
+            y[rows] = factor.solve(x[rows])
+            return y
+
+        return solve
+
+    def second_at_least(self, near: Near, shift: float) -> float | None:
+        """A lower bound of the second smallest eigenvalue of A, the smallest being 0 at the vector 1. Rigorous.
+
+        With at most one d_i < 0, at most one eigenvalue is at or below ``shift - norm E``: none but the 0 if that is
+        > 0. None where the factor does not show a positive bound.
+        """
+        found = self._inertia(near, 1.0, -shift, most=1)
+        return None if found is None or shift - found * SLACK <= 0 else (shift - found * SLACK) * (1 - 2 * U)
+
+    def all_at_most(self, near: Near, shift: float) -> float | None:
+        """An upper bound of every eigenvalue of A, from ``shift I - A``; None where the factor shows none. Rigorous."""
+        found = self._inertia(near, -1.0, shift, most=0)
+        return None if found is None else (shift + found * SLACK) * (1 + 2 * U)
+
+    def _moved(self, near: Near, shift: float, sign: float = 1.0) -> Any:
+        """``sign A + shift I``, rows and columns in the order of elimination."""
+        rows = self.order.rows
+        moved = (near.matrix * sign)[rows][:, rows].tocsc()
+        moved.setdiag(moved.diagonal() + shift)
+        moved.sort_indices()
+        return moved
+
+    def _inertia(self, near: Near, sign: float, shift: float, *, most: int) -> float | None:
+        """A bound of norm E if at most `most` of the d_i are negative and none is 0; else None."""
+        import numpy as np
+
+        moved = self._moved(near, shift, sign)
+        try:
+            factor = _factor(moved)
+        except RuntimeError:
+            return None
+        n, place = moved.shape[0], factor.perm_r
+        if not np.array_equal(place, factor.perm_c) or sorted(place.tolist()) != list(range(n)):
+            return None
+        lower, pivots = factor.L, factor.U.diagonal()
+        del factor
+        if (pivots == 0).any() or int((pivots < 0).sum()) > most:
+            return None
+        rows = np.argsort(place)
+        error = residual_norm(moved[rows][:, rows].tocsc(), lower, pivots)
+        # The shift was added to the diagonal with one rounding.
+        return (error + near.error + 2 * U * (near.largest + abs(shift))) * SLACK if np.isfinite(error) else None
+
+
+def _factor(matrix: Any) -> Any:
+    """Pivots from the diagonal, in the order given, so that the upper factor is the lower one times the pivots."""
+    from scipy.sparse.linalg import splu
+
+    return splu(matrix, permc_spec="NATURAL", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
