@@ -93,7 +93,17 @@ def check(
             raise DesignError(f"check: require: expected claim ids or {OWN!r}, got {str(name)[:60]!r}")
     data, path = _bytes(certificate)
     called = "certificate" if path is None else fspath(path)
-    return Checked(answer_to(data, called, None if design is None else exact_design(design), required, path))
+    meant = None if design is None else exact_design(design)
+    return Checked(answer_to(data, called, meant, required, path, edge_list=_edge_list(certificate)))
+
+
+def _edge_list(certificate: object) -> bytes | None:
+    """That of a large graph, where the certificate has not been written yet."""
+    from fomas_verify.api.verdicts import Proof
+    from fomas_verify.prover import LargeProof
+
+    large = certificate.found if isinstance(certificate, Proof) else None
+    return large.edge_list if isinstance(large, LargeProof) else None
 
 
 def _bytes(certificate: Certified | str | bytes | PathLike[str]) -> tuple[bytes, Path | None]:

@@ -12,15 +12,17 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from fomas_verify.api.graphs import graph_table
 from fomas_verify.api.values import plain
+from fomas_verify.design import AnyDesign, DesignError, LargeDesign, SwitchedDesign, UncertainDesign, read_named
 from fomas_verify.design import Design as ExactDesign
-from fomas_verify.design import DesignError, SwitchedDesign, UncertainDesign, read_named
 from fomas_verify.design import plain as plain_design
+from fomas_verify.design.model import Given
 from fomas_verify.design.reading import named_from_mapping
+from fomas_verify.network.large import LargeGraph
 
 if TYPE_CHECKING:
     from control import StateSpace
 
-Exact: TypeAlias = ExactDesign | UncertainDesign | SwitchedDesign
+Exact: TypeAlias = AnyDesign
 Number: TypeAlias = int | float | str | Fraction
 """A float is its shortest decimal; a text is a decimal or a fraction such as "9/10"."""
 
@@ -146,7 +148,8 @@ class Design:
     @property
     def edges(self) -> tuple[tuple[int, int, Fraction], ...]:
         """``(from, to, weight)``: agent `to` hears `from`; of several graphs those of the first."""
-        return plain_design(self.exact).graph.edges
+        graph = plain_design(self.exact).graph
+        return graph.digraph().edges if isinstance(graph, LargeGraph) else graph.edges
 
     @property
     def alpha(self) -> Fraction | tuple[Fraction, Fraction]:
@@ -182,7 +185,11 @@ class Design:
         return number
 
     def certain(self, what: str) -> ExactDesign:
-        """The exact design for what takes one graph and no interval; raises `DesignError` for any other."""
+        """The exact design for what takes one graph, of at most 10,000 agents, and no interval; raises `DesignError`
+        for any other.
+        """
+        if isinstance(self.exact, LargeDesign):
+            return self.exact.listed()
         if not isinstance(self.exact, ExactDesign):
             kind = "one graph" if isinstance(self.exact, SwitchedDesign) else "numbers, got an interval"
             raise DesignError(f"{plain_design(self.exact).source}: {what}: expected a design with {kind}")
@@ -236,15 +243,16 @@ def _shown(x: Fraction | tuple[Fraction, Fraction]) -> str:
 
 
 def _with_notes(exact: Exact, remarks: Sequence[str]) -> Exact:
-    first = plain_design(exact)
-    noted = replace(first, notes=(*first.notes, *remarks))
+    def noted(design: Given) -> dict[str, Any]:
+        return {"notes": (*design.notes, *remarks)}
+
     match exact:
         case UncertainDesign():
-            return replace(exact, least=noted)
+            return replace(exact, least=replace(exact.least, **noted(exact.least)))
         case SwitchedDesign():
-            return replace(exact, first=noted)
+            return replace(exact, first=replace(exact.first, **noted(exact.first)))
         case _:
-            return noted
+            return replace(exact, **noted(exact))
 
 
 def _log_notes(design: Design) -> None:

@@ -10,7 +10,7 @@ from typing import Any
 from fomas_verify.api.values import plain
 from fomas_verify.design import DesignError
 from fomas_verify.design.fields import shown
-from fomas_verify.design.graph_table import MAX_AGENTS
+from fomas_verify.design.model import MOST_AGENTS_EXACTLY
 from fomas_verify.network.files import (
     FROM_TO,
     HEARS,
@@ -19,8 +19,9 @@ from fomas_verify.network.files import (
     graph_from_networkx,
     read_graph_file,
 )
+from fomas_verify.network.sparse import SparseDigraph
 
-Found = tuple[Mapping[str, object], tuple[str, ...]]
+Found = tuple[Mapping[str, object] | SparseDigraph, tuple[str, ...]]
 
 _NAME = "design: graph"
 
@@ -28,7 +29,7 @@ _NAME = "design: graph"
 def graph_table(
     graph: Any, orientation: str | None = None, agents: int | None = None, shape: Sequence[int] | None = None
 ) -> Found:
-    """The table, and what the user must know about the reading.
+    """The table, or a digraph too large for one, and what the user must know about the reading.
 
     Parameters
     ----------
@@ -54,6 +55,8 @@ def graph_table(
         return found
     if beside:
         raise DesignError(f"design: {next(iter(beside))}: expected only with edges or a family")
+    if isinstance(graph, SparseDigraph):
+        return graph, ()
     if isinstance(graph, PathLike):
         return _of_file(read_graph_file(Path(graph), orientation, name=f"{_NAME}: {graph}"))
     if hasattr(graph, "is_multigraph") and hasattr(graph, "nodes"):
@@ -102,7 +105,7 @@ def _one_of(orientation: str | None, default: str) -> str:
 
 def _of_file(found: GraphFile) -> Found:
     remarks = tuple(f"graph: {remark}" for remark in found.remarks)
-    if found.graph.agents > MAX_AGENTS:  # refused by their number alone
-        return {"agents": found.graph.agents, "edges": []}, remarks
+    if found.graph.agents > MOST_AGENTS_EXACTLY:
+        return found.graph, remarks
     graph = found.graph.to_digraph()
     return {"agents": graph.agents, "edges": graph.edges}, remarks

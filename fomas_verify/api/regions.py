@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from fomas_verify.api.design import LOG, Design, Exact, exact_design
 from fomas_verify.api.results import Cells, Certified
-from fomas_verify.design import DesignError, Limits, SwitchedDesign, UncertainDesign
+from fomas_verify.design import DesignError, LargeDesign, Limits, SwitchedDesign, UncertainDesign
 from fomas_verify.enclosure.digits import rounded_down, rounded_up
 from fomas_verify.region import Region as ExactRegion
 from fomas_verify.region import certificate, find_region, record, region_text
@@ -127,7 +127,7 @@ def region(design: Design | Exact | str | PathLike[str]) -> Region:
 
         found: Found = find_switched_region(exact)
     else:
-        found = find_region(exact)
+        found = find_region(exact.listed() if isinstance(exact, LargeDesign) else exact)
     answer = Region(design if isinstance(design, Design) else Design.of(exact), found)
     LOG.info("%r", answer)
     return answer

@@ -7,21 +7,25 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from os import PathLike
+from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
 from fomas_verify.api.design import LOG, Design, Exact, exact_design
 from fomas_verify.api.results import Cells, Certified
 from fomas_verify.claims.verdict import Decision, Verdict
-from fomas_verify.design import DesignError, SwitchedDesign, UncertainDesign
+from fomas_verify.design import DesignError, LargeDesign, SwitchedDesign, UncertainDesign
 from fomas_verify.design import plain as plain_design
 from fomas_verify.enclosure.interval import Interval
+from fomas_verify.prover import LargeProof, UncertainProof
 from fomas_verify.prover import Proof as ExactProof
-from fomas_verify.prover import UncertainProof
 
 if TYPE_CHECKING:
     from fomas_verify.region.switching import SwitchedProof
 
-Found: TypeAlias = "ExactProof | UncertainProof | SwitchedProof"
+CERTIFICATE = "certificate.json"
+"""The file in which the certificate of a large graph thinks itself as long as it has none."""
+
+Found: TypeAlias = "ExactProof | LargeProof | UncertainProof | SwitchedProof"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -62,8 +66,17 @@ class Proof(Certified):
 
     @cached_property
     def certificate(self) -> str:
-        """The certificate's canonical text."""
-        return self.found.certificate()
+        """The certificate's text, canonical but for what a solver proposed about a large graph."""
+        return self.found.certificate(CERTIFICATE) if isinstance(self.found, LargeProof) else self.found.certificate()
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write the certificate, whole or not at all, and before it a large graph's edge list, which it names."""
+        from fomas_verify.report.files import write_all
+
+        if isinstance(self.found, LargeProof):
+            write_all(self.found.files(Path(path)))
+        else:
+            super().save(path)
 
     def __str__(self) -> str:
         from fomas_verify.report.text import proof_text, uncertain_text
@@ -72,6 +85,10 @@ class Proof(Certified):
             return proof_text(self.found)
         if isinstance(self.found, UncertainProof):
             return uncertain_text(self.found)
+        if isinstance(self.found, LargeProof):
+            from fomas_verify.report.large_text import large_proof_text
+
+            return large_proof_text(self.found)
         from fomas_verify.report.switched_text import switched_proof_text
 
         return switched_proof_text(self.found)
@@ -129,8 +146,10 @@ def prove(design: Design | Exact | str | PathLike[str], *, horizon: int | None =
 
 def _decided(exact: Exact, horizon: int | None, digits: int) -> Found:
     from fomas_verify.prover import prove as prove_exactly
-    from fomas_verify.prover import prove_uncertain
+    from fomas_verify.prover import prove_large, prove_uncertain
 
+    if isinstance(exact, LargeDesign):
+        return prove_large(exact, horizon=horizon, digits=digits)
     if isinstance(exact, UncertainDesign | SwitchedDesign):
         if horizon is not None:
             what = "an interval" if isinstance(exact, UncertainDesign) else "several graphs"

@@ -10,6 +10,7 @@ from typing import Any
 from fomas_verify.claims.registry import CLAIMS
 from fomas_verify.claims.verdict import Decision
 from fomas_verify.design import Design, SwitchedDesign, UncertainDesign
+from fomas_verify.design.model import Given
 from fomas_verify.exact.rational import format_rational
 
 FORMAT = "fomas-certificate/1"
@@ -55,7 +56,7 @@ def design_object(named: Design | UncertainDesign | SwitchedDesign) -> dict[str,
     design, ranges = (named.least, named.ranges) if isinstance(named, UncertainDesign) else (named, {})
     graph = design.graph
     parts: dict[str, Any] = {"alpha": design.alpha, "gamma": design.gamma, "mu": design.mu, "h": design.h}
-    parts |= {"agents": graph.agents, "edges": [[*edge] for edge in sorted(graph.edges)], "x0": _state(design)}
+    parts |= {"agents": graph.agents, "edges": [[*edge] for edge in sorted(graph.edges)], "x0": state_entry(design)}
     parts |= {"require": list(design.require)}
     parts |= {key: [x.lower, x.upper] for key, x in ranges.items()}
     return {key: plain(value) for key, value in parts.items() if value is not None}
@@ -69,7 +70,7 @@ def _switched_object(named: SwitchedDesign) -> dict[str, Any]:
     return found | {"graphs": plain(edges)} | ({} if mu is None else {"mu": plain(mu)})
 
 
-def _state(design: Design) -> list[Any] | None:
+def state_entry(design: Given) -> list[Any] | None:
     """x_0: a number for each agent, or a list where it has several."""
     if design.x0 is None:
         return None

@@ -212,10 +212,8 @@ def _contraction(known: Known, bits: int) -> bool | None:
     mu, low, high, beta = known.mu(bits), known.lambda2(bits), known.lambda_max(bits), known.beta(bits)
     if beta.upper < 0:
         return False
-    if known.graph.is_symmetric:
-        same = low.lower == high.upper
-        if mu.upper * (low.upper + high.upper) <= 2 or (same and mu.upper * low.upper <= 1):
-            return True
+    if known.graph.is_symmetric and mu.upper * (low.upper + high.upper) <= 2:
+        return True
     return False if known.sigma_square(bits).lower > square_of(beta).upper else None
 
 

@@ -48,7 +48,6 @@ class LargeDesign:
     agents: int
     graph: Family | EdgeFile
     x0: State | None = field(hash=False)
-    plain_x0: bool
     require: tuple[str, ...]
     alpha: Fraction
     gamma: Fraction | None
@@ -93,9 +92,8 @@ def read_large_design(value: object, path: str) -> LargeDesign:
     agents = count(given["agents"], f"{path}.agents", 2, MAX_FAMILY)
     graph = _graph(given["graph"], f"{path}.graph", agents)
     x0 = read_state(given["x0"], f"{path}.x0", agents) if "x0" in given else None
-    plain = "x0" in given and not isinstance(array(given["x0"], f"{path}.x0", "an array")[0], list)
     require = read_require(given["require"], f"{path}.require")
-    return LargeDesign(agents, graph, x0, plain, require, read_order(given["alpha"], f"{path}.alpha"), gamma, mu, h)
+    return LargeDesign(agents, graph, x0, require, read_order(given["alpha"], f"{path}.alpha"), gamma, mu, h)
 
 
 def _graph(value: object, path: str, agents: int) -> Family | EdgeFile:

@@ -10,6 +10,7 @@ ID = "average-consensus"
 STATEMENT = "for every x_0 and every i, x_i(t) tends to the mean of x_0 as t tends to infinity"
 SOURCE = "Theorem 1"
 COQ = "claims_are_one"
+MEANING = "For some initial state the agents never agree on the mean."
 
 
 def decide(loop: Loop) -> Decision:
@@ -17,5 +18,5 @@ def decide(loop: Loop) -> Decision:
     return perron.decide(
         loop,
         proved="the agents agree on the mean, between the samples too",
-        refuted="For some initial state the agents never agree on the mean.",
+        refuted=MEANING,
     )

@@ -10,6 +10,7 @@ ID = "control-bounded"
 STATEMENT = "for every x_0, norm u_k is bounded over k and u_k tends to 0"
 SOURCE = "Theorem 1"
 COQ = "claims_are_one"
+MEANING = "For some initial state the control does not vanish, and it may grow without bound."
 
 
 def decide(loop: Loop) -> Decision:
@@ -17,5 +18,5 @@ def decide(loop: Loop) -> Decision:
     return perron.decide(
         loop,
         proved="u_k is bounded and vanishes for every x_0",
-        refuted="For some initial state the control does not vanish, and it may grow without bound.",
+        refuted=MEANING,
     )

@@ -18,6 +18,7 @@ ID = "gain-bound"
 STATEMENT = "0 < mu < 1/Delta_max (gain bound (15) [eqh])"
 SOURCE = "eqh"
 COQ = ""
+MEANING = "The paper's Theorem 1 does not apply; perron-eigenvalues says whether the agents still agree."
 
 
 def decide(loop: Loop) -> Decision:
@@ -34,7 +35,7 @@ def decide(loop: Loop) -> Decision:
                 Verdict.REFUTED,
                 {},
                 _numbers(mu, "=" if mu.lower == mu.upper == bound else ">", bound),
-                meaning="The paper's Theorem 1 does not apply; perron-eigenvalues says whether the agents still agree.",
+                meaning=MEANING,
                 remedy=lower_mu(loop, bound, strict=True),
             )
     return undecided(bits, _numbers(mu, "compared with", bound))

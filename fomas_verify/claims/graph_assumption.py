@@ -21,6 +21,7 @@ ID = "graph-assumption"
 STATEMENT = "the digraph is strongly connected and balanced (Assumption 1)"
 SOURCE = "Assumption 1"
 COQ = ""
+REMEDY = "add or reweight edges until every agent reaches every other and hears as much as it is heard with"
 SHOWN_IMBALANCES = 5
 SHOWN_WEIGHTS = 12
 
@@ -50,7 +51,7 @@ def decide(loop: Loop) -> Decision:
         witness,
         "; ".join(reasons),
         meaning=_meaning(loop),
-        remedy="add or reweight edges until every agent reaches every other and hears as much as it is heard with",
+        remedy=REMEDY,
     )
 
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any
 
-from fomas_verify.claims.remedy import lower_mu, raise_mu
+from fomas_verify.claims.remedy import Gained, lower_mu, raise_mu
 from fomas_verify.claims.verdict import Decision, Verdict, undecided
 from fomas_verify.enclosure.digits import decimal, rounded_up
 from fomas_verify.enclosure.interval import Interval
@@ -68,11 +68,11 @@ def _refuted_at_first_sample(loop: Loop, beta: Interval, threshold: Interval, bi
         {"k": 0},
         f"beta = {decimal(beta, 20)} > 2^alpha - 1 = {decimal(threshold, 20)}: it fails at k = 0",
         meaning=FIRST,
-        remedy=_raise_or_none(loop, margins.memory_inequality(loop).lower, bits),
+        remedy=raise_or_none(loop, margins.memory_inequality(loop).lower, bits),
     )
 
 
-def _raise_or_none(loop: Loop, least: Interval, bits: int) -> str:
+def raise_or_none(loop: Gained, least: Interval, bits: int) -> str:
     """The least mu for (14), unless the gain bound (15) excludes it."""
     bound = 1 / loop.degree_max
     if least.upper < bound:

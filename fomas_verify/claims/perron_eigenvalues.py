@@ -10,6 +10,7 @@ ID = "perron-eigenvalues"
 STATEMENT = "1 is a simple eigenvalue of P and every other eigenvalue of P lies in the open unit disc"
 SOURCE = "after eqxik_3"
 COQ = "eigenvalues_decide"
+MEANING = "Some disagreement between the agents does not die out."
 
 
 def decide(loop: Loop) -> Decision:
@@ -17,5 +18,5 @@ def decide(loop: Loop) -> Decision:
     return perron.decide(
         loop,
         proved="every other eigenvalue of P lies in the open unit disc",
-        refuted="Some disagreement between the agents does not die out.",
+        refuted=MEANING,
     )

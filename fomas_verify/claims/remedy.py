@@ -5,11 +5,12 @@ the safe side.
 from __future__ import annotations
 
 from fractions import Fraction
+from typing import Protocol
 
+from fomas_verify.design.model import Given
 from fomas_verify.enclosure.digits import rounded_down, rounded_up
 from fomas_verify.enclosure.interval import Interval
 from fomas_verify.enclosure.real import log2, power_of
-from fomas_verify.spectrum.loop import Loop
 
 DIGITS = 6
 BITS = 192
@@ -17,7 +18,25 @@ LARGEST = 4096
 """No factor of h is told beyond ``2^4096``, where alpha is near 0."""
 
 
-def raise_mu(loop: Loop, least: Fraction, *, below: Fraction | None = None) -> str:
+class Gained(Protocol):
+    """The closed loop of a design of any size."""
+
+    @property
+    def design(self) -> Given:
+        """What gives gamma and h, or mu."""
+
+    @property
+    def degree_max(self) -> Fraction:
+        """D."""
+
+    def mu(self, bits: int) -> Interval:
+        """The integrated gain."""
+
+    def lambda2(self, bits: int) -> Interval:
+        """The smallest eigenvalue of L_s on 1perp."""
+
+
+def raise_mu(loop: Gained, least: Fraction, *, below: Fraction | None = None) -> str:
     """Words for ``mu >= least``, with as many digits as it takes to stay below a bound."""
     digits = DIGITS
     while below is not None and Fraction(rounded_up(least, digits - 2)) >= below:
@@ -25,7 +44,7 @@ def raise_mu(loop: Loop, least: Fraction, *, below: Fraction | None = None) -> s
     return _change(loop, least, "raise", "to at least", up=True, digits=digits)
 
 
-def lower_mu(loop: Loop, most: Fraction, *, strict: bool = False, above: Fraction | None = None) -> str:
+def lower_mu(loop: Gained, most: Fraction, *, strict: bool = False, above: Fraction | None = None) -> str:
     """Words for ``mu <= most``, or ``mu < most``, with as many digits as it takes to stay above a bound."""
     digits = DIGITS
     while above is not None and Fraction(rounded_down(most, digits - 2)) <= above:
@@ -33,7 +52,7 @@ def lower_mu(loop: Loop, most: Fraction, *, strict: bool = False, above: Fractio
     return _change(loop, most, "lower", "below" if strict else "to at most", up=False, digits=digits)
 
 
-def in_users_terms(loop: Loop, end: Interval) -> dict[str, tuple[Interval, Interval]]:
+def in_users_terms(loop: Gained, end: Interval) -> dict[str, tuple[Interval, Interval]]:
     """What makes mu equal to the end, each number moved alone: its factor and its value.
 
     Of gamma and h where the design gives both, of mu otherwise; h is absent where its factor is beyond all bounds.
@@ -49,7 +68,7 @@ def in_users_terms(loop: Loop, end: Interval) -> dict[str, tuple[Interval, Inter
     return found
 
 
-def _change(loop: Loop, bound: Fraction, verb: str, word: str, *, up: bool, digits: int) -> str:
+def _change(loop: Gained, bound: Fraction, verb: str, word: str, *, up: bool, digits: int) -> str:
     rounded = rounded_up if up else rounded_down
     moved = {
         name: rounded(value.upper if up else value.lower, digits)

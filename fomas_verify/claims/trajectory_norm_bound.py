@@ -19,6 +19,7 @@ ID = "trajectory-norm-bound"
 STATEMENT = "norm u_k <= norm u_0 for every k >= 0, for the x_0 of the design"
 SOURCE = "eqL3"
 COQ = "control_resolvent"
+MEANING = "From this initial state a later control exceeds the first: size the actuator for the peak."
 
 
 def decide(loop: Loop) -> Decision:
@@ -40,7 +41,7 @@ def decide(loop: Loop) -> Decision:
                 Verdict.REFUTED,
                 {"k": found.above},
                 reason,
-                "From this initial state a later control exceeds the first: size the actuator for the peak.",
+                MEANING,
                 "see control-norm-bound",
             )
         if found.tail is not None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import sys
@@ -14,9 +15,10 @@ import click
 
 from fomas_verify.cli.limits import limited
 from fomas_verify.cli.machine import ended_by_sigterm, processors
+from fomas_verify.cli.numeric import redo_if_installed
 from fomas_verify.cli.options import allow_outside_option, json_option
 from fomas_verify.cli.require import OWN, require_option
-from fomas_verify.report.files import OutputError, make_folder, write_whole
+from fomas_verify.report.files import OutputError, make_folder, write_all
 
 if TYPE_CHECKING:
     from fomas_verify.gate.discovery import Found
@@ -104,10 +106,11 @@ def command(
         if folder is not None:
             make_folder(folder)
     margins = baseline is not None or output is not None
-    options = Options(require or (OWN,), margins, cache, baseline, loss, new_ok, allow_outside)
+    used = jobs or processors()
+    options = Options(require or (OWN,), margins, cache, baseline, loss, new_ok, allow_outside, redo_if_installed(used))
     teller = _Teller(sum(isinstance(x, Path) for x in found), quiet=quiet, silent=as_json, output=output, cache=cache)
     with ended_by_sigterm():
-        answer = run_gate(found, options, jobs or processors(), teller.tell)
+        answer = run_gate(found, options, used, teller.tell)
     teller.end(answer, as_json=as_json)
     return first_of([answer.status, *teller.failures, *_write(answer, junit, sarif, markdown)])
 
@@ -132,9 +135,22 @@ def _write(answer: Answer, junit: Path | None, sarif: Path | None, markdown: Pat
     return [status for path, render in wanted if path is not None for status in _attempt(path, render(answer))]
 
 
+def _contents(path: Path, result: Result) -> dict[Path, bytes]:
+    """A certificate, and before it the edge list that it names."""
+    found = {path: result.certificate.encode()}
+    if not result.edge_list:
+        return found
+    name = json.loads(result.certificate)["design"]["graph"]["file"]
+    return {path.with_name(name): result.edge_list} | found
+
+
 def _attempt(path: Path, data: bytes) -> list[int]:
+    return _attempt_all({path: data})
+
+
+def _attempt_all(contents: dict[Path, bytes]) -> list[int]:
     try:
-        write_whole(path, data)
+        write_all(contents)
     except OutputError as error:
         click.echo(f"verify-design: {error}", err=True)
         return [error.exit_status]
@@ -184,7 +200,7 @@ class _Teller:
         if self.cache is not None and not result.cached:
             self.failures += _attempt(cache_file(self.cache, result.key), result.certificate.encode())
         if self.output is not None:
-            self.failures += _attempt(certificate_file(self.output, result.name), result.certificate.encode())
+            self.failures += _attempt_all(_contents(certificate_file(self.output, result.name), result))
 
     def _progress(self, text: str) -> None:
         if not self.quiet and sys.stderr is not None and sys.stderr.isatty():

@@ -11,7 +11,7 @@ import click
 
 from fomas_verify.cli.limits import limited
 from fomas_verify.cli.options import allow_outside_option, design_argument, digits_option, json_option
-from fomas_verify.design import read_design
+from fomas_verify.design import read_single
 from fomas_verify.enclosure.digits import decimal
 from fomas_verify.enclosure.interval import Interval
 from fomas_verify.kernel.table import Row, kernel_rows
@@ -48,7 +48,7 @@ def command(
     """
     chosen = _indices(at) if at is not None else []
     indices = sorted({*range(1, (terms or (0 if chosen else 10)) + 1), *chosen})
-    alpha = read_design(design, allow_outside=allow_outside).alpha
+    alpha = read_single(design, allow_outside=allow_outside).alpha
     rows = [_cells(row, digits) for row in kernel_rows(alpha, indices, digits)]
     if csv_file is not None:
         from fomas_verify.report.files import write_whole

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 if TYPE_CHECKING:
-    from fomas_verify.design import Design, SwitchedDesign, UncertainDesign
+    from fomas_verify.design import AnyDesign
 
 
 class Count(click.IntRange):
@@ -31,7 +31,7 @@ allow_outside_option = click.option(
 json_option = click.option("--json", "as_json", is_flag=True, help="print JSON in place of the table")
 
 
-def tell_notes(named: Design | UncertainDesign | SwitchedDesign) -> None:
+def tell_notes(named: AnyDesign) -> None:
     """Say on standard error what the user must know about the reading of a design, where the output does not."""
     from fomas_verify.design import plain
 

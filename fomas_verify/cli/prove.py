@@ -9,11 +9,13 @@ import click
 
 from fomas_verify.cli.limits import limited
 from fomas_verify.cli.options import Count, allow_outside_option, design_argument, digits_option, tell_notes
-from fomas_verify.design import Design, DesignError, SwitchedDesign, UncertainDesign, read_named
-from fomas_verify.prover import Proof, UncertainProof, prove, prove_uncertain
+from fomas_verify.design import AnyDesign, Design, DesignError, LargeDesign, SwitchedDesign, UncertainDesign, read_named
+from fomas_verify.prover import LargeProof, Proof, UncertainProof, prove, prove_large, prove_uncertain
 
 if TYPE_CHECKING:
     from fomas_verify.region.switching import SwitchedProof
+
+    Found = LargeProof | Proof | UncertainProof | SwitchedProof
 
 
 @click.command("prove")
@@ -44,21 +46,41 @@ def command(
     """
     named = read_named(design, allow_outside=allow_outside)
     proof = _prove(named, horizon, digits, coq)
-    if output is not None:
-        from fomas_verify.report.files import write_whole
-
-        write_whole(output, proof.certificate().encode())
+    if isinstance(proof, LargeProof) and proof.reason is not None:
+        click.echo(f"note: {proof.reason}", err=True)
+    certificate = _certificate(proof, output, printed=as_json)
     if as_json:
         tell_notes(named)
-        click.echo(proof.certificate(), nl=False)
+        click.echo(certificate, nl=False)
     else:
         click.echo(_text(proof))
     return proof.exit_status
 
 
-def _text(proof: Proof | UncertainProof | SwitchedProof) -> str:
+def _certificate(proof: Found, output: Path | None, *, printed: bool) -> str:
+    """The certificate, written where that is asked for, a large graph's edge list before it; empty where it is not."""
+    from fomas_verify.report.files import write_all
+
+    if output is not None:
+        files = proof.files(output) if isinstance(proof, LargeProof) else {output: proof.certificate().encode()}
+        write_all(files)
+        return files[output].decode()
+    if not printed:
+        return ""
+    if not isinstance(proof, LargeProof):
+        return proof.certificate()
+    if proof.edge_list is not None:
+        click.echo("note: the certificate names an edge list beside it: -o CERT.json writes both", err=True)
+    return proof.certificate("certificate.json")
+
+
+def _text(proof: Found) -> str:
     from fomas_verify.report.text import proof_text, uncertain_text
 
+    if isinstance(proof, LargeProof):
+        from fomas_verify.report.large_text import large_proof_text
+
+        return large_proof_text(proof)
     if isinstance(proof, Proof):
         return proof_text(proof)
     if isinstance(proof, UncertainProof):
@@ -68,14 +90,16 @@ def _text(proof: Proof | UncertainProof | SwitchedProof) -> str:
     return switched_proof_text(proof)
 
 
-def _prove(
-    design: Design | UncertainDesign | SwitchedDesign, horizon: int | None, digits: int, coq: Path | None
-) -> Proof | UncertainProof | SwitchedProof:
+def _prove(design: AnyDesign, horizon: int | None, digits: int, coq: Path | None) -> Found:
     if isinstance(design, Design):
         proof = prove(design, horizon=horizon, digits=digits)
         if coq is not None:
             _write_coq(proof, coq)
         return proof
+    if isinstance(design, LargeDesign):
+        if coq is not None:
+            raise DesignError(f"{design.source}: --coq is not supported yet with {design.graph.agents} agents")
+        return prove_large(design, horizon=horizon, digits=digits)
     if isinstance(design, SwitchedDesign):
         source, what = design.first.source, "[[graphs]]"
     else:

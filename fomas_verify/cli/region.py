@@ -10,7 +10,7 @@ import click
 
 from fomas_verify.cli.limits import limited
 from fomas_verify.cli.options import allow_outside_option, design_argument, json_option, tell_notes
-from fomas_verify.design import DesignError, Limits, SwitchedDesign, UncertainDesign, read_named
+from fomas_verify.design import DesignError, LargeDesign, Limits, SwitchedDesign, UncertainDesign, read_named
 from fomas_verify.region import Region, certificate, find_region, record, region_text
 from fomas_verify.report.files import write_whole
 
@@ -61,7 +61,7 @@ def command(
         from fomas_verify.region.lmi import need_solver
 
         need_solver()
-    found = find_region(named)
+    found = find_region(named.listed() if isinstance(named, LargeDesign) else named)
     if solver == "lmi":
         _hold_against_lmi(found)
     left = _left(found)

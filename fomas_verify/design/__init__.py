@@ -3,15 +3,24 @@
 from fomas_verify.design.claim_ids import CLAIM_IDS, DEFAULT_REQUIRE, SWITCHED_CLAIM_IDS
 from fomas_verify.design.errors import DesignError
 from fomas_verify.design.limits import Limits
-from fomas_verify.design.model import Design, SwitchedDesign, UncertainDesign, plain
-from fomas_verify.design.reading import design_from_mapping, parse_design, read_any, read_design, read_named
+from fomas_verify.design.model import AnyDesign, Design, LargeDesign, SwitchedDesign, UncertainDesign, plain
+from fomas_verify.design.reading import (
+    design_from_mapping,
+    parse_design,
+    read_any,
+    read_design,
+    read_named,
+    read_single,
+)
 
 __all__ = [
     "CLAIM_IDS",
     "DEFAULT_REQUIRE",
     "SWITCHED_CLAIM_IDS",
+    "AnyDesign",
     "Design",
     "DesignError",
+    "LargeDesign",
     "Limits",
     "SwitchedDesign",
     "UncertainDesign",
@@ -21,4 +30,5 @@ __all__ = [
     "read_any",
     "read_design",
     "read_named",
+    "read_single",
 ]

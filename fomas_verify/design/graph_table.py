@@ -12,10 +12,16 @@ from typing import Final
 from fomas_verify.design.errors import DesignError
 from fomas_verify.design.fields import Place, choice, count, number, one_of, positive, sequence, shown, table
 from fomas_verify.design.graph_file import Folder, read_file
+from fomas_verify.design.model import MAX_LISTED_AGENTS, MOST_AGENTS_EXACTLY
 from fomas_verify.network import FAMILIES, SHAPED_FAMILIES, Digraph, Edge, GraphError, digraph, family
+from fomas_verify.network.large import MOST_AGENTS, LargeGraph, large_family
+from fomas_verify.network.sparse import SparseDigraph
 
-MAX_AGENTS: Final = 10_000
+MAX_FAMILY: Final = 2**64
 MAX_DENOMINATOR_BITS: Final = 256
+
+Graph = Digraph | LargeGraph
+"""A digraph on at most 200 agents, or a larger one."""
 
 _FORMS = ("adjacency", "edges", "file", "family")
 # The keys that may stand beside each form.
@@ -34,13 +40,13 @@ _BESIDE = {
 _ONE = Fraction(1)
 
 
-def read_graph(value: object, place: Place, folder: Folder | None = None) -> tuple[Digraph, tuple[str, ...]]:
+def read_graph(value: object, place: Place, folder: Folder | None = None) -> tuple[Graph, tuple[str, ...]]:
     """Read the table [graph]; with what the user must know about the reading of its file, where it names one.
 
     Parameters
     ----------
     value : object
-        The table.
+        The table; or, from Python, the digraph itself.
     place : Place
         Where it stands.
     folder : Folder, optional
@@ -49,9 +55,11 @@ def read_graph(value: object, place: Place, folder: Folder | None = None) -> tup
     Raises
     ------
     DesignError
-        It does not describe a digraph on 2 to 10,000 agents whose weights are positive and have a common denominator of
-        at most 256 bits.
+        It does not describe a digraph on 2 to 2^22 agents, of a family 2^64, whose weights are positive and have a
+        common denominator of at most 256 bits.
     """
+    if isinstance(value, SparseDigraph):
+        return _sized(value), ()
     graph = table(value, place, (*_FORMS, *_BESIDE))
     forms = [form for form in _FORMS if form in graph]
     if len(forms) != 1:
@@ -63,15 +71,34 @@ def read_graph(value: object, place: Place, folder: Folder | None = None) -> tup
             raise DesignError(f"{place.key(key)}: expected only with {_beside(key)}, got it with {form}")
     if form == "file":
         read = read_file(graph, place, folder)
-        if read.graph.agents > MAX_AGENTS:
-            raise place.key("file").unsupported(f"{read.graph.agents} agents, more than {MAX_AGENTS}, are")
-        return read.graph.to_digraph(), read.remarks
-    readers: dict[str, Callable[[Mapping[str, object], Place], Digraph]] = {
+        return _sized(read.graph), read.remarks
+    readers: dict[str, Callable[[Mapping[str, object], Place], Graph]] = {
         "adjacency": _from_adjacency,
         "edges": _from_edges,
         "family": _from_family,
     }
-    return readers[form](graph, place), ()
+    return _sized(readers[form](graph, place)), ()
+
+
+def read_listed_graph(
+    value: object, place: Place, folder: Folder | None = None, *, most: int = MAX_LISTED_AGENTS
+) -> tuple[Digraph, tuple[str, ...]]:
+    """As `read_graph`, where more than so many agents are not supported."""
+    graph, remarks = read_graph(value, place, folder)
+    if isinstance(graph, Digraph):
+        return graph, remarks
+    if graph.agents > most:
+        raise place.unsupported(f"{shown(graph.agents)} agents, more than {most}, are")
+    return graph.digraph(), remarks
+
+
+def _sized(graph: Graph | SparseDigraph) -> Graph:
+    """The graph in the form that belongs to its size."""
+    if isinstance(graph, LargeGraph):
+        return graph
+    if graph.agents > MOST_AGENTS_EXACTLY:
+        return LargeGraph(listed=graph)
+    return graph.to_digraph() if isinstance(graph, SparseDigraph) else graph
 
 
 def _from_adjacency(graph: Mapping[str, object], place: Place) -> Digraph:
@@ -123,35 +150,38 @@ def _edge(value: object, place: Place, agents: int) -> Edge:
     return source, target, positive(entries[2], place.item(2), "a weight") if len(entries) == 3 else _ONE
 
 
-def _from_family(graph: Mapping[str, object], place: Place) -> Digraph:
+def _from_family(graph: Mapping[str, object], place: Place) -> Graph:
     name = choice(graph["family"], place.key("family"), "a family", (*FAMILIES, *SHAPED_FAMILIES))
     if name in FAMILIES:
         if "shape" in graph:
             raise DesignError(f"{place.key('shape')}: expected only with {_beside('shape')}, got it with {name}")
         where = place.key("agents")
-        agents = _agents(graph.get("agents"), where)
+        agents = _agents(graph.get("agents"), where, MAX_FAMILY)
         return _built(name, where, agents=agents)
     where = place.key("shape")
     sides = sequence(graph.get("shape"), where, "two integers [rows, columns]", 2)
     rows, columns = (count(side, where.item(i), 1) for i, side in enumerate(sides))
     if rows * columns > 1:
-        _agents(rows * columns, where)
+        _agents(rows * columns, where, MAX_FAMILY)
     if "agents" in graph and count(graph["agents"], place.key("agents"), 2) != rows * columns:
         raise place.key("agents").expected(f"{rows * columns}, as the shape says", graph["agents"])
     return _built(name, where, shape=(rows, columns))
 
 
-def _built(name: str, place: Place, *, agents: int | None = None, shape: tuple[int, int] | None = None) -> Digraph:
+def _built(name: str, place: Place, *, agents: int | None = None, shape: tuple[int, int] | None = None) -> Graph:
     try:
+        large = large_family(name, agents=agents, shape=shape)
+        if large.agents > MOST_AGENTS_EXACTLY:
+            return large
         return family(name, agents=agents, shape=shape)
     except GraphError as error:
         raise DesignError(f"{place}: {error}") from None
 
 
-def _agents(value: object, place: Place) -> int:
+def _agents(value: object, place: Place, most: int = MOST_AGENTS) -> int:
     agents = count(value, place, 2)
-    if agents > MAX_AGENTS:
-        raise place.unsupported(f"{shown(agents)} agents, more than {MAX_AGENTS}, are")
+    if agents > most:
+        raise place.unsupported(f"{shown(agents)} agents, more than {most}, are")
     return agents
 
 

@@ -1,21 +1,29 @@
 """A design: what is to be decided about, in exact numbers."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from fractions import Fraction
-from typing import TypeAlias
+from typing import Final, TypeAlias, overload
 
 from fomas_verify.design.errors import DesignError
+from fomas_verify.design.fields import shown
 from fomas_verify.design.limits import NO_LIMITS, Limits
 from fomas_verify.enclosure.interval import Interval
 from fomas_verify.network import Digraph
+from fomas_verify.network.large import LargeGraph
+
+MOST_AGENTS_EXACTLY: Final = 200
+"""Agents up to which a design is decided from exact matrices: half a minute, which grows with the fourth power."""
+MAX_LISTED_AGENTS: Final = 10_000
+"""Agents up to which a graph is held with one Python object an edge."""
+MAX_LISTED_EDGES: Final = 1 << 22
 
 State: TypeAlias = tuple[tuple[Fraction, ...], ...]
 
 
-@dataclass(frozen=True)
-class Design:
-    """A valid design, every number exact.
+@dataclass(frozen=True, kw_only=True)
+class Given:
+    """What a design gives besides its graph, valid, every number exact.
 
     Attributes
     ----------
@@ -27,8 +35,6 @@ class Design:
         Control gain and integrated gain `mu = gamma h^alpha / Gamma(alpha + 1)`, > 0; at most one of them is given.
     h : Fraction or None
         Sampling period in seconds, > 0.
-    graph : Digraph
-        a_ij: agent i hears agent j.
     x0 : tuple of tuples of Fraction or None
         Initial state: for each agent its n >= 1 numbers, n the same for every agent.
     horizon : int or None
@@ -50,7 +56,6 @@ class Design:
     gamma: Fraction | None
     mu: Fraction | None
     h: Fraction | None
-    graph: Digraph
     x0: State | None
     horizon: int | None
     settle_to: Fraction | None
@@ -85,6 +90,42 @@ class Design:
                 raise DesignError(f"{self.source}: {missing}: {command} needs mu, or gamma and h; got no {missing}")
         elif {"gamma": self.gamma, "h": self.h, "x0": self.x0, "horizon": self.horizon}[key] is None:
             raise DesignError(f"{self.source}: {key}: {command} needs {key}; got no {key}")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Design(Given):
+    """A valid design, every number exact.
+
+    Attributes
+    ----------
+    graph : Digraph
+        a_ij: agent i hears agent j.
+    """
+
+    graph: Digraph
+
+
+@dataclass(frozen=True, kw_only=True)
+class LargeDesign(Given):
+    """A valid design, every number exact, with more agents than are decided from matrices.
+
+    Attributes
+    ----------
+    graph : LargeGraph
+        a_ij: agent i hears agent j.
+    """
+
+    graph: LargeGraph
+
+    def listed(self, *, most: int = MAX_LISTED_AGENTS) -> Design:
+        """The same with one Python object an edge, for what needs that; raises `DesignError` beyond `most` agents."""
+        agents = self.graph.agents
+        if agents > most or self.graph.edge_count > MAX_LISTED_EDGES:
+            what = f"{shown(agents)} agents, more than {most}," if agents > most else f"{self.graph.edge_count} edges"
+            only = "only prove, check, gate and kernel take them"
+            raise DesignError(f"{self.source}: graph: {what} are not supported yet here: {only}")
+        given = {field.name: getattr(self, field.name) for field in fields(Given)}
+        return Design(**given, graph=self.graph.digraph())
 
 
 @dataclass(frozen=True)
@@ -142,7 +183,15 @@ class SwitchedDesign:
         return replace(self.first, graph=self.graphs[i])
 
 
-def plain(named: Design | UncertainDesign | SwitchedDesign) -> Design:
+AnyDesign: TypeAlias = Design | LargeDesign | UncertainDesign | SwitchedDesign
+"""Whatever a design file may hold."""
+
+
+@overload
+def plain(named: Design | UncertainDesign | SwitchedDesign) -> Design: ...
+@overload
+def plain(named: AnyDesign) -> Design | LargeDesign: ...
+def plain(named: AnyDesign) -> Design | LargeDesign:
     """What the members of an uncertain design have in common, and where each interval begins; the first graph."""
     if isinstance(named, SwitchedDesign):
         return named.first

@@ -3,22 +3,31 @@
 Source: the section on the design file in the README.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from os import PathLike
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 from fomas_verify.design.claim_ids import CLAIM_IDS, DEFAULT_REQUIRE, SWITCHED_CLAIM_IDS, SWITCHED_REQUIRE
 from fomas_verify.design.document import Format, format_of, parse_document, read_text, source_name
 from fomas_verify.design.errors import DesignError
 from fomas_verify.design.fields import Place, choice, count, number, positive, sequence, shown, table
 from fomas_verify.design.graph_file import Folder, folder_of
-from fomas_verify.design.graph_table import read_graph
+from fomas_verify.design.graph_table import read_graph, read_listed_graph
 from fomas_verify.design.limits import NO_LIMITS, read_limits
-from fomas_verify.design.model import Design, State, SwitchedDesign, UncertainDesign
+from fomas_verify.design.model import (
+    MOST_AGENTS_EXACTLY,
+    AnyDesign,
+    Design,
+    LargeDesign,
+    State,
+    SwitchedDesign,
+    UncertainDesign,
+)
 from fomas_verify.enclosure.interval import Interval
 from fomas_verify.network import Digraph
+from fomas_verify.network.large import LargeGraph
 
 FORMAT: Final = "fomas-design/1"
 MAX_HORIZON: Final = 10**9
@@ -64,16 +73,24 @@ def read_design(path: str | PathLike[str], *, allow_outside: bool = False) -> De
     DesignError
         With one line that names the file, the key and what was expected.
     """
+    return _listed(read_single(path, allow_outside=allow_outside))
+
+
+def read_single(path: str | PathLike[str], *, allow_outside: bool = False) -> Design | LargeDesign:
+    """Read a design file with one graph, of any size; otherwise as `read_design`."""
     return _certain(read_named(path, allow_outside=allow_outside), source_name(path))
 
 
 def read_any(path: str | PathLike[str], *, allow_outside: bool = False) -> Design | UncertainDesign:
     """Read a design file in which alpha, gamma, mu and h may be intervals; otherwise as `read_design`."""
-    return _one_graph(read_named(path, allow_outside=allow_outside), source_name(path))
+    one = _one_graph(read_named(path, allow_outside=allow_outside), source_name(path))
+    return one if isinstance(one, UncertainDesign) else _listed(one)
 
 
-def read_named(path: str | PathLike[str], *, allow_outside: bool = False) -> Design | UncertainDesign | SwitchedDesign:
-    """Read a design file that may have [[graphs]] in place of [graph]; otherwise as `read_any`."""
+def read_named(path: str | PathLike[str], *, allow_outside: bool = False) -> AnyDesign:
+    """Read a design file that may have intervals, [[graphs]] in place of [graph], and a graph of any size; otherwise
+    as `read_design`.
+    """
     text = read_text(path)
     source = source_name(path)
     mapping = parse_document(text, format_of(path, text), source)
@@ -112,15 +129,20 @@ def design_from_mapping(mapping: Mapping[str, object], source: str = "design") -
     >>> design_from_mapping({"alpha": "9/10", "mu": "0.1", "graph": graph}).mu
     Fraction(1, 10)
     """
-    return _certain(named_from_mapping(mapping, source), source)
+    return _listed(_certain(named_from_mapping(mapping, source), source))
 
 
 def any_from_mapping(mapping: Mapping[str, object], source: str = "design") -> Design | UncertainDesign:
     """Read a design in which alpha, gamma, mu and h may be intervals; otherwise as `design_from_mapping`."""
-    return _one_graph(named_from_mapping(mapping, source), source)
+    one = _one_graph(named_from_mapping(mapping, source), source)
+    return one if isinstance(one, UncertainDesign) else _listed(one)
 
 
-def _certain(found: Design | UncertainDesign | SwitchedDesign, source: str) -> Design:
+def _listed(design: Design | LargeDesign) -> Design:
+    return design.listed() if isinstance(design, LargeDesign) else design
+
+
+def _certain(found: AnyDesign, source: str) -> Design | LargeDesign:
     one = _one_graph(found, source)
     if isinstance(one, UncertainDesign):
         where = Place(source).key(next(iter(one.ranges)))
@@ -128,7 +150,7 @@ def _certain(found: Design | UncertainDesign | SwitchedDesign, source: str) -> D
     return one
 
 
-def _one_graph(found: Design | UncertainDesign | SwitchedDesign, source: str) -> Design | UncertainDesign:
+def _one_graph(found: AnyDesign, source: str) -> Design | LargeDesign | UncertainDesign:
     if isinstance(found, SwitchedDesign):
         where = Place(source).key("graphs")
         raise DesignError(f"{where}: expected one [graph]: only prove, check, region and gate take [[graphs]]")
@@ -137,7 +159,7 @@ def _one_graph(found: Design | UncertainDesign | SwitchedDesign, source: str) ->
 
 def named_from_mapping(
     mapping: Mapping[str, object], source: str = "design", folder: Folder | None = None
-) -> Design | UncertainDesign | SwitchedDesign:
+) -> AnyDesign:
     """Read a design that may have graphs in place of graph, and whose graph file may lie in a folder.
 
     Otherwise as `design_from_mapping`, intervals included.
@@ -156,37 +178,46 @@ def named_from_mapping(
         if ranges and key in top:
             raise place.key(key).unsupported(f"with an interval for {next(iter(ranges))} this key is")
     graphs, remarks = _graphs(top, place, ranges, folder)
-    graph = graphs[0]
-    least = {key: x.lower for key, x in numbers.items()}
-    design = Design(
-        name=_name(top, place),
-        alpha=least["alpha"],
-        gamma=least.get("gamma"),
-        mu=least.get("mu"),
-        h=least.get("h"),
-        graph=graph,
-        x0=_initial_state(top["x0"], place.key("x0"), graph.agents) if "x0" in top else None,
-        horizon=count(top["horizon"], place.key("horizon"), 0, MAX_HORIZON) if "horizon" in top else None,
-        settle_to=_settle_to(top["settle_to"], place.key("settle_to")) if "settle_to" in top else None,
-        require=_require(top, place),
-        limits=read_limits(top["limits"], place.key("limits")) if "limits" in top else NO_LIMITS,
-        source=source,
-        notes=(*_notes(top), *remarks),
-    )
+    agents = graphs.agents if isinstance(graphs, LargeGraph) else graphs[0].agents
+    given = _given(top, place, agents, remarks) | {key: x.lower for key, x in numbers.items()}
+    if isinstance(graphs, LargeGraph):
+        return LargeDesign(**given, graph=graphs)
+    design = Design(**given, graph=graphs[0])
     if "graphs" in top:
         return SwitchedDesign(design, graphs, numbers.get("mu"))
     return UncertainDesign(design, ranges) if ranges else design
 
 
+def _given(top: Mapping[str, object], place: Place, agents: int, remarks: Sequence[str]) -> dict[str, Any]:
+    """What a design gives besides its graph, but for the numbers that may be intervals."""
+    return {
+        "name": _name(top, place),
+        "gamma": None,
+        "mu": None,
+        "h": None,
+        "x0": _initial_state(top["x0"], place.key("x0"), agents) if "x0" in top else None,
+        "horizon": count(top["horizon"], place.key("horizon"), 0, MAX_HORIZON) if "horizon" in top else None,
+        "settle_to": _settle_to(top["settle_to"], place.key("settle_to")) if "settle_to" in top else None,
+        "require": _require(top, place),
+        "limits": read_limits(top["limits"], place.key("limits")) if "limits" in top else NO_LIMITS,
+        "source": place.source,
+        "notes": (*_notes(top), *remarks),
+    }
+
+
 def _graphs(
     top: Mapping[str, object], place: Place, ranges: Mapping[str, Interval], folder: Folder | None
-) -> tuple[tuple[Digraph, ...], tuple[str, ...]]:
-    """The digraph, or the digraphs to switch among, and the remarks on their reading."""
+) -> tuple[LargeGraph | tuple[Digraph, ...], tuple[str, ...]]:
+    """The digraph, large or as one of one, or the digraphs to switch among, and the remarks on their reading."""
     if "graphs" not in top:
         if "graph" not in top:
             raise place.key("graph").expected("a table", None)
         graph, remarks = read_graph(top["graph"], place.key("graph"), folder)
-        return (graph,), tuple(f"graph: {remark}" for remark in remarks)
+        if ranges and isinstance(graph, LargeGraph):
+            what = f"{graph.agents} agents, more than {MOST_AGENTS_EXACTLY},"
+            raise place.key("graph").unsupported(f"with an interval for {next(iter(ranges))} {what} are")
+        told = tuple(f"graph: {remark}" for remark in remarks)
+        return graph if isinstance(graph, LargeGraph) else (graph,), told
     where = place.key("graphs")
     if "graph" in top:
         raise DesignError(f"{where}: expected either graph or graphs, got both")
@@ -197,7 +228,8 @@ def _graphs(
     entries = sequence(top["graphs"], where, "a list of tables")
     if not 1 <= len(entries) <= MAX_GRAPHS:
         raise where.expected(f"1 to {MAX_GRAPHS} graphs", entries)
-    read = [read_graph(entry, where.item(i), folder) for i, entry in enumerate(entries)]
+    most = MOST_AGENTS_EXACTLY
+    read = [read_listed_graph(entry, where.item(i), folder, most=most) for i, entry in enumerate(entries)]
     graphs = tuple(graph for graph, _ in read)
     for i, graph in enumerate(graphs):
         if graph.agents != graphs[0].agents:

@@ -70,6 +70,12 @@ def square_root(x: Interval, bits: int) -> Interval:
     return Interval(max(low.lower, Fraction(0)), high.upper)
 
 
+def one_minus_cosine(x: Fraction, bits: int) -> Interval:
+    """``1 - cos(pi x) = 2 sin(pi x/2)^2`` for rational x, with about ``bits`` correct bits however small it is."""
+    with working_precision(bits):
+        return to_interval(2 * arb.sin_pi_fmpq(to_fmpq(x / 2)) ** 2)
+
+
 def gamma_function(x: Fraction, bits: int) -> Interval:
     """Gamma(x) for rational x > 0."""
     with working_precision(bits):

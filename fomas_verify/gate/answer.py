@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
+from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
@@ -14,11 +15,10 @@ from fomas_verify.checker import Malformed, Report, beside, check
 from fomas_verify.exact.errors import FomasError
 
 if TYPE_CHECKING:
+    from fomas_verify.checker.edge_list import Opener
     from fomas_verify.checker.large import Numeric
-    from fomas_verify.checker.large_form import LargeDesign
     from fomas_verify.checker.report import Shortfall
-    from fomas_verify.design import Design, SwitchedDesign, UncertainDesign
-    from fomas_verify.network import Digraph
+    from fomas_verify.design import AnyDesign, Design, LargeDesign
 
 OWN: Final = "design"
 """Stands among required claims for those that the certificate's design itself requires."""
@@ -44,20 +44,32 @@ def read_certificate(path: Path) -> bytes:
 def answer_to(
     certificate: bytes,
     name: str,
-    meant: Design | UncertainDesign | SwitchedDesign | None,
+    meant: AnyDesign | None,
     require: tuple[str, ...],
     path: Path | None = None,
     numeric: Numeric | None = None,
+    edge_list: bytes | None = None,
 ) -> Answer:
     """Check a certificate, which messages call `name`; raises `CertificateError` where it is none.
 
-    A large network's edge list lies beside `path`; `numeric` redoes what takes a sparse factor.
+    A large network's edge list is the one given, or lies beside `path`; `numeric` redoes what takes a sparse factor.
     """
     try:
-        report = check(certificate, opener=None if path is None else beside(path), numeric=numeric)
+        report = check(certificate, opener=_opener(path, edge_list), numeric=numeric)
     except Malformed as error:
         raise CertificateError(f"{name}: {error}") from None
     return Answer(report, meant, tuple(dict.fromkeys(_expanded(require, report))))
+
+
+def _opener(path: Path | None, edge_list: bytes | None) -> Opener | None:
+    if edge_list is not None:
+        return held(edge_list)
+    return None if path is None else beside(path)
+
+
+def held(edge_list: bytes) -> Opener:
+    """What opens an edge list that is in memory, whatever its name."""
+    return lambda _: BytesIO(edge_list)
 
 
 def _expanded(require: tuple[str, ...], report: Report) -> Iterator[str]:
@@ -70,7 +82,7 @@ class Answer:
     """The checker's report, the design that the certificate must be about, and the claims that must be proved."""
 
     report: Report
-    meant: Design | UncertainDesign | SwitchedDesign | None
+    meant: AnyDesign | None
     required: tuple[str, ...]
 
     @property
@@ -116,7 +128,7 @@ class Answer:
         }
 
 
-def differences(report: Report, meant: Design | UncertainDesign | SwitchedDesign) -> list[str]:
+def differences(report: Report, meant: AnyDesign) -> list[str]:
     """The keys in which the certificate's design and the user's are not the same, as exact numbers and intervals."""
     from fomas_verify.design import SwitchedDesign, UncertainDesign
 
@@ -141,42 +153,24 @@ def differences(report: Report, meant: Design | UncertainDesign | SwitchedDesign
     return [key for key, (theirs, ours) in pairs.items() if theirs != ours]
 
 
-def _edges(named: Any, meant: Design | UncertainDesign | SwitchedDesign) -> dict[str, tuple[object, object]]:
-    """The edges of both, under the key of the user's design; of several digraphs in their order."""
+def _edges(named: Any, meant: AnyDesign) -> dict[str, tuple[object, object]]:
+    """Whether the edges of both are the same, of several digraphs in their order; under the key of the user's."""
     from fomas_verify.checker.large_form import LargeDesign
     from fomas_verify.checker.switching_form import SwitchedDesign as Switched
     from fomas_verify.design import SwitchedDesign
+    from fomas_verify.gate.same_graph import are_edges_of, is_graph_of
 
     if isinstance(named, LargeDesign):
-        same = not isinstance(meant, SwitchedDesign) and _is_graph(named, _plain(meant).graph)
+        same = not isinstance(meant, SwitchedDesign) and is_graph_of(named, _plain(meant).graph)
         return {"graph": (same, True)}
-    theirs = [sorted(graph.edges) for graph in (named.graphs if isinstance(named, Switched) else (named,))]
-    graphs = meant.graphs if isinstance(meant, SwitchedDesign) else (_plain(meant).graph,)
-    key = "graphs" if isinstance(meant, SwitchedDesign) else "edges"
-    same_kind = isinstance(named, Switched) == isinstance(meant, SwitchedDesign)
-    return {key: (theirs if same_kind else None, [sorted(graph.edges) for graph in graphs])}
+    theirs = named.graphs if isinstance(named, Switched) else (named,)
+    ours = meant.graphs if isinstance(meant, SwitchedDesign) else (_plain(meant).graph,)
+    same = isinstance(named, Switched) == isinstance(meant, SwitchedDesign) and len(theirs) == len(ours)
+    same = same and all(are_edges_of(a.edges, named.agents, b) for a, b in zip(theirs, ours, strict=True))
+    return {"graphs" if isinstance(meant, SwitchedDesign) else "edges": (same, True)}
 
 
-def _is_graph(named: LargeDesign, graph: Digraph) -> bool:
-    """Whether a large certificate's graph is this one: by the digest of its edge list, or edge by edge of a family."""
-    from fomas_verify.checker.large_form import EdgeFile
-
-    if isinstance(named.graph, EdgeFile):
-        return named.graph.sha256 == _digest(graph)
-    if (named.agents, named.graph.edge_count) != (graph.agents, len(graph.edges)):
-        return False
-    pairs = {(source + 1, target + 1) for source, target in named.graph.pairs()}
-    return all(weight == 1 and (source, target) in pairs for source, target, weight in graph.edges)
-
-
-def _digest(graph: Digraph) -> str:
-    """That of the canonical edge list."""
-    from hashlib import sha256
-
-    return sha256("".join(f"{i} {j} {w}\n" for i, j, w in sorted(graph.edges)).encode()).hexdigest()
-
-
-def _plain(meant: Design | UncertainDesign | SwitchedDesign) -> Design:
+def _plain(meant: AnyDesign) -> Design | LargeDesign:
     from fomas_verify.design import plain
 
     return plain(meant)

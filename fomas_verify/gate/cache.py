@@ -8,28 +8,35 @@ from __future__ import annotations
 import hashlib
 import json
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 from urllib.parse import quote
 
 from fomas_verify.certificate.document import FORMAT, design_object
-from fomas_verify.design import Design, SwitchedDesign, UncertainDesign
+from fomas_verify.certificate.large_document import graph_entry, large_design_object
+from fomas_verify.design import AnyDesign, LargeDesign
 
 LARGEST: Final = 64 * 2**20
 _LONGEST_NAME: Final = 200
 
 
-def cache_key(design: Design | UncertainDesign | SwitchedDesign, horizon: int | None, *, margins: bool) -> str:
+def cache_key(design: AnyDesign, horizon: int | None, *, margins: bool) -> str:
     """What the certificate of a design depends on, in 64 hexadecimal digits."""
     from importlib.metadata import version
 
     parts = {
         "format": FORMAT,
         "version": version("fomas_verify"),
-        "design": design_object(design),
+        "design": _described(design),
         "horizon": horizon,
         "margins": margins,
     }
     return hashlib.sha256(json.dumps(parts, sort_keys=True).encode()).hexdigest()
+
+
+def _described(design: AnyDesign) -> dict[str, Any]:
+    if not isinstance(design, LargeDesign):
+        return design_object(design)
+    return large_design_object(design, graph_entry(design.graph, ""))
 
 
 def cache_file(folder: Path, key: str) -> Path:

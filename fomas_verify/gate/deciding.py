@@ -16,11 +16,13 @@ from typing import Final
 
 from fomas_verify.certificate.document import design_object
 from fomas_verify.checker import Malformed, Report, check
+from fomas_verify.checker.large import Numeric
 from fomas_verify.claims.verdict import Decision
 from fomas_verify.design import (
     SWITCHED_CLAIM_IDS,
-    Design,
+    AnyDesign,
     DesignError,
+    LargeDesign,
     SwitchedDesign,
     UncertainDesign,
     plain,
@@ -28,6 +30,7 @@ from fomas_verify.design import (
 )
 from fomas_verify.design.document import format_of, read_text, source_name
 from fomas_verify.exact.errors import FomasError
+from fomas_verify.gate.answer import differences, held
 from fomas_verify.gate.baseline import shrunk_margins
 from fomas_verify.gate.cache import cache_key, certificate_file, recall
 from fomas_verify.gate.model import (
@@ -43,10 +46,8 @@ from fomas_verify.gate.model import (
     Result,
 )
 from fomas_verify.gate.positions import position_of, position_of_error
-from fomas_verify.prover import prove, prove_uncertain
+from fomas_verify.prover import prove, prove_large, prove_uncertain
 from fomas_verify.prover.limits import raise_beyond_memory
-
-Named = Design | UncertainDesign | SwitchedDesign
 
 OWN: Final = "design"
 """Stands among required claims for those that the design itself requires."""
@@ -80,6 +81,8 @@ class Options:
         Whether a design passes of which the baseline holds no certificate.
     allow_outside : bool
         Whether a graph file may lie outside the folder of its design.
+    numeric : Numeric or None
+        What redoes bounds of a large graph that take a factor; without it they stay undecided.
     """
 
     require: tuple[str, ...] = (OWN,)
@@ -89,6 +92,7 @@ class Options:
     loss: Fraction = Fraction(0)
     new_ok: bool = False
     allow_outside: bool = False
+    numeric: Numeric | None = None
 
 
 def decide(path: Path, options: Options) -> Result:
@@ -127,32 +131,36 @@ def decide(path: Path, options: Options) -> Result:
         return replace(answer, required=(), findings=(Finding(BROKEN, "", INTERNAL, words),))
 
 
-def _requiring(named: Named, require: tuple[str, ...]) -> Named:
+def _requiring(named: AnyDesign, require: tuple[str, ...]) -> AnyDesign:
     design = plain(named)
     names = dict.fromkeys(name for word in require for name in (design.require if word == OWN else (word,)))
     if "trajectory-norm-bound" in names:
         design.needs("x0", command="trajectory-norm-bound")
-    design = replace(design, require=tuple(names))
+    wanted = tuple(names)
     if isinstance(named, SwitchedDesign):
         for name in names:
             if name not in SWITCHED_CLAIM_IDS:
                 raise DesignError(f"{design.source}: graphs: {name} is no claim about [[graphs]]")
-        return replace(named, first=design)
-    return replace(named, least=design) if isinstance(named, UncertainDesign) else design
+        return replace(named, first=replace(named.first, require=wanted))
+    if isinstance(named, UncertainDesign):
+        return replace(named, least=replace(named.least, require=wanted))
+    return replace(named, require=wanted)
 
 
-def _decided(named: Named, answer: Result, options: Options) -> Result:
+def _decided(named: AnyDesign, answer: Result, options: Options) -> Result:
     former = ""
     if options.cache is not None:
         answer = replace(answer, key=cache_key(named, plain(named).horizon, margins=options.margins))
         former = recall(options.cache, answer.key)
-    if former and _proves_all(former, named, answer.required):
+    if former and _proves_all(former, named, answer.required, options.numeric):
         answer = replace(answer, certificate=former, cached=True)
         findings: list[Finding] = []
     else:
-        text, decisions = _proved(named, options)
-        answer = replace(answer, certificate=text)
-        findings = list(_findings(_checked(text, named), answer.required, decisions))
+        text, decisions, note = _proved(named, options)
+        answer = replace(answer, certificate=text, note="; ".join(filter(None, (note, answer.note))))
+        findings = list(_findings(_checked(text, named, options.numeric), answer.required, decisions))
+    if options.margins and isinstance(named, LargeDesign) and named.graph.known_family is None:
+        answer = replace(answer, edge_list=named.graph.edge_list)
     if options.baseline is not None:
         former_file = certificate_file(options.baseline, answer.name)
         if os.path.lexists(former_file):
@@ -165,39 +173,51 @@ def _decided(named: Named, answer: Result, options: Options) -> Result:
     return replace(answer, findings=tuple(_placed(Path(answer.path), named, findings)))
 
 
-def _proved(named: Named, options: Options) -> tuple[str, Mapping[str, Decision]]:
+def _proved(named: AnyDesign, options: Options) -> tuple[str, Mapping[str, Decision], str]:
+    """The certificate, the decisions, and what else must be known."""
+    only = None if options.margins else plain(named).require
+    if isinstance(named, LargeDesign):
+        large = prove_large(named, only=only)
+        return large.certificate(certificate_file(Path(), named.name).name), large.decisions, large.reason or ""
     if isinstance(named, UncertainDesign):
         uncertain = prove_uncertain(named)
-        return uncertain.certificate(), uncertain.decisions
+        return uncertain.certificate(), uncertain.decisions, ""
     if isinstance(named, SwitchedDesign):
         from fomas_verify.region.switching import prove_switched
 
         switched = prove_switched(named)
-        return switched.certificate(), switched.decisions
-    proof = prove(named, only=None if options.margins else named.require)
-    return proof.certificate(), proof.decisions
+        return switched.certificate(), switched.decisions, ""
+    proof = prove(named, only=only)
+    return proof.certificate(), proof.decisions, ""
 
 
-def _proves_all(certificate: str, named: Named, required: tuple[str, ...]) -> bool:
+def _proves_all(certificate: str, named: AnyDesign, required: tuple[str, ...], numeric: Numeric | None) -> bool:
     """Whether a former certificate is about this design, true, and proves what is required; checked anew."""
     try:
-        report = _checked(certificate, named)
+        report = _checked(certificate, named, numeric)
     except DisagreementError:
         return False
     return report.exit_status == 0 and not report.shortfalls(required)
 
 
-def _checked(certificate: str, named: Named) -> Report:
+def _checked(certificate: str, named: AnyDesign, numeric: Numeric | None) -> Report:
+    """The checker's report; the edge list of a large graph is that of the design, whatever lies in a folder."""
+    large = isinstance(named, LargeDesign) and named.graph.known_family is None
+    opener = held(named.graph.edge_list) if isinstance(named, LargeDesign) and large else None
     try:
-        report = check(certificate.encode())
+        report = check(certificate.encode(), opener=opener, numeric=numeric)
     except Malformed as error:
         raise DisagreementError(f"the checker cannot read the certificate: {error}") from None
     for outcome in report.outcomes:
         if outcome.status == "refused":
             raise DisagreementError(f"the checker refuses the certificate: {outcome.id}: {outcome.reason}")
-    if json.loads(certificate)["design"] != design_object(named):
+    if not _is_about(json.loads(certificate)["design"], named, report):
         raise DisagreementError("the certificate is about another design")
     return report
+
+
+def _is_about(design: object, named: AnyDesign, report: Report) -> bool:
+    return not differences(report, named) if isinstance(named, LargeDesign) else design == design_object(named)
 
 
 def _findings(report: Report, required: tuple[str, ...], decisions: Mapping[str, Decision]) -> Iterator[Finding]:
@@ -211,7 +231,7 @@ def _findings(report: Report, required: tuple[str, ...], decisions: Mapping[str,
             yield Finding(LIMIT, "undecided", UNDECIDED, f"{outcome.id}: {outcome.reason}")
 
 
-def _placed(path: Path, named: Named, findings: list[Finding]) -> Iterator[Finding]:
+def _placed(path: Path, named: AnyDesign, findings: list[Finding]) -> Iterator[Finding]:
     """Each finding at the key to change: the graph, the gain, or the name."""
     if not findings:
         return

@@ -97,6 +97,8 @@ class Result:
         What keeps it from passing.
     certificate : str
         The certificate that the checker accepted, whatever its verdicts; empty where there is none.
+    edge_list : bytes
+        What lies beside the certificate of a large graph, where it is to be written.
     key : str
         What the certificate is kept under in a cache.
     cached : bool
@@ -111,6 +113,7 @@ class Result:
     required: tuple[str, ...] = ()
     findings: tuple[Finding, ...] = ()
     certificate: str = ""
+    edge_list: bytes = b""
     key: str = ""
     cached: bool = False
     note: str = ""

@@ -74,6 +74,17 @@ def sparse_unreachable_pair(graph: SparseDigraph) -> tuple[int, int] | None:
     return (int(np.min(stranded)) + 1, 1)
 
 
+def sparse_has_root(graph: SparseDigraph) -> bool:
+    """Whether some agent reaches every other: whether one strong component alone hears nobody outside."""
+    import numpy as np
+    from scipy.sparse.csgraph import connected_components
+
+    pattern = _pattern(graph.agents, graph.sources, graph.targets)
+    parts, labels = connected_components(pattern, directed=True, connection="strong")
+    sources, targets = labels[graph.sources], labels[graph.targets]
+    return bool(len(np.unique(targets[sources != targets])) == parts - 1)
+
+
 def _strong_parts(graph: SparseDigraph) -> int:
     from scipy.sparse.csgraph import connected_components
 

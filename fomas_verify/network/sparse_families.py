@@ -6,35 +6,16 @@ Source: as `families`.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from fomas_verify.network.digraph import GraphError
-from fomas_verify.network.families import Shape, checked_size
+from fomas_verify.network.families import FAMILIES, Shape, checked_size
+from fomas_verify.network.family_facts import Family
 from fomas_verify.network.sparse import SparseDigraph
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
-
-
-@dataclass(frozen=True)
-class Family:
-    """A graph of a family with one weight on every edge.
-
-    Attributes
-    ----------
-    name : str
-        One of `FAMILIES` or `SHAPED_FAMILIES`.
-    sizes : (agents,) or (rows, columns)
-        What `sparse_family` was given.
-    weight : Fraction
-        The weight of every edge.
-    """
-
-    name: str
-    sizes: tuple[int, ...]
-    weight: Fraction
 
 
 def sparse_family(name: str, *, agents: int | None = None, shape: Shape | None = None) -> SparseDigraph:
@@ -64,15 +45,9 @@ def recognised_family(graph: SparseDigraph) -> Family | None:
 def _candidates(graph: SparseDigraph) -> list[tuple[str, tuple[int, ...]]]:
     """The families that have this many edges; the columns of a shape are read off the first agent's neighbours."""
     agents, edges = graph.agents, len(graph.sources)
-    counts = {
-        "complete": agents * (agents - 1),
-        "directed-cycle": agents,
-        "cycle": 2 * agents,
-        "path": 2 * (agents - 1),
-        "star": 2 * (agents - 1),
-        "hypercube": agents * (agents.bit_length() - 1),
-    }
-    found: list[tuple[str, tuple[int, ...]]] = [(name, (agents,)) for name, n in counts.items() if n == edges]
+    found: list[tuple[str, tuple[int, ...]]] = [
+        (name, (agents,)) for name in FAMILIES if Family(name, (agents,)).edges == edges
+    ]
     first = graph.targets[: 5 if edges > 4 else edges][graph.sources[: 5 if edges > 4 else edges] == 0].tolist()
     if len(first) == 4 and edges == 4 * agents:
         found.append(("torus", (agents // first[2], first[2])))

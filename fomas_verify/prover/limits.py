@@ -6,6 +6,8 @@ made and nothing is ended from outside. Processes that work at once have equal p
 
 from __future__ import annotations
 
+import os
+
 from fomas_verify.exact.errors import out_of_memory
 
 _allowed: int | None = None
@@ -25,6 +27,12 @@ def allow_memory(size: int) -> None:
 def allowed_memory() -> int | None:
     """The bytes that this process may have by ``--memory``; None without a limit."""
     return _allowed
+
+
+def memory_for_factors() -> int:
+    """The bytes that factors of a large network's matrices may take: half of what is allowed, or of the machine's."""
+    machine = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") if hasattr(os, "sysconf") else 8 << 30
+    return min(machine, _allowed or machine) // 2
 
 
 def raise_beyond_memory(error: BaseException) -> None:

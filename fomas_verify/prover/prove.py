@@ -12,6 +12,7 @@ from fomas_verify.claims import trajectory_norm_bound
 from fomas_verify.claims.registry import CLAIMS, ON_ANY_GRAPH
 from fomas_verify.claims.verdict import Decision, Verdict, inapplicable
 from fomas_verify.design import Design
+from fomas_verify.design.model import MOST_AGENTS_EXACTLY, Given
 from fomas_verify.enclosure.interval import Interval
 from fomas_verify.enclosure.reference import DisagreementError, approx_gain_and_threshold, must_agree
 from fomas_verify.exact.errors import FomasError
@@ -22,8 +23,6 @@ from fomas_verify.spectrum.loop import Loop
 from fomas_verify.spectrum.stability import Side, stability
 
 DEFAULT_DIGITS = 50
-MOST_AGENTS = 200
-"""The exact path takes about half a minute at this size, and grows with the fourth power."""
 
 
 class WorkLimitError(FomasError):
@@ -106,11 +105,12 @@ def prove(
         Two computations that must agree do not.
     """
     design.needs("mu", command="prove")
-    if design.graph.agents > MOST_AGENTS:
-        raise WorkLimitError(f"{design.source}: more than {MOST_AGENTS} agents are beyond prove for now: undecided")
+    if design.graph.agents > MOST_AGENTS_EXACTLY:
+        what = f"more than {MOST_AGENTS_EXACTLY} agents are beyond what takes matrices"
+        raise WorkLimitError(f"{design.source}: {what}; prove, check and gate decide them by bounds: undecided")
     loop = Loop(design) if like is None else like.on_same_graph(design)
     values = enclose_values(loop, digits)
-    _compare_with_mpmath(design, values, digits)
+    compare_with_mpmath(design, values, digits)
     measured = Sizes() if only is not None else measure(loop, decided_stable=stability(loop).side is Side.INSIDE)
     decisions = {
         claim.ID: claim.decide(loop) if loop.assumption1 or claim.ID in ON_ANY_GRAPH else inapplicable()
@@ -130,10 +130,14 @@ def _bits(digits: int) -> int:
     return int(digits * 3.33) + 32
 
 
+def value_bits(digits: int, *sizes: Fraction) -> int:
+    """The working precision for so many digits of a difference of products of these."""
+    return _bits(digits) + sum(max(0, x.numerator.bit_length() - x.denominator.bit_length()) for x in sizes)
+
+
 def enclose_values(loop: Loop, digits: int) -> dict[str, Interval]:
     """The values that exist for the design, to about so many digits; sigma, which costs most, to 35 at most."""
-    sizes = [loop.mu(64).upper, loop.degree_max]
-    bits = _bits(digits) + sum(max(0, x.numerator.bit_length() - x.denominator.bit_length()) for x in sizes)
+    bits = value_bits(digits, loop.mu(64).upper, loop.degree_max)
     values = {"mu": loop.mu(bits)}
     if loop.assumption1:
         values |= {"beta": loop.beta(bits), "sigma": loop.sigma(128), "lambda2": loop.lambda2(bits)}
@@ -141,7 +145,8 @@ def enclose_values(loop: Loop, digits: int) -> dict[str, Interval]:
     return {name: x.rounded(120 if name == "sigma" else bits - 16) for name, x in values.items()}
 
 
-def _compare_with_mpmath(design: Design, values: Mapping[str, Interval], digits: int) -> None:
+def compare_with_mpmath(design: Given, values: Mapping[str, Interval], digits: int) -> None:
+    """Raise :class:`DisagreementError` where mpmath's numbers lie outside of the enclosures."""
     for name, x in approx_gain_and_threshold(design.alpha, design.h, design.gamma, digits).items():
         must_agree(name, values[name], x, digits)
         if name == "mu" and "beta" in values:

@@ -143,8 +143,8 @@ def _stage(
     parts = (data,) if isinstance(data, bytes) else data
     if path.exists() and (not path.is_file() or _is_held_output(path)):
         if _held is None or not _held.names:
-            with path.open("wb") as stream:
-                stream.writelines(parts)
+            with path.open("wb") as device:
+                device.writelines(parts)
             return
         target, place = path, Path(tempfile.gettempdir(), path.name)
     else:

@@ -8,7 +8,7 @@ from fractions import Fraction
 
 from fomas_verify.claims.registry import CLAIMS
 from fomas_verify.claims.verdict import Decision, Verdict
-from fomas_verify.design import Design
+from fomas_verify.design import Design, LargeDesign
 from fomas_verify.enclosure.digits import decimal, exact_decimal, rounded_down, rounded_up
 from fomas_verify.enclosure.interval import Interval
 from fomas_verify.enclosure.roots import Root, root_of
@@ -38,7 +38,7 @@ NAMES = {
 def proof_text(proof: Proof) -> str:
     """The verdict table, the values, the spectrum, what a refutation means, and how it ends."""
     parts = [
-        _heading(proof.design),
+        heading(proof.design),
         verdict_table(proof.decisions, proof.design.require),
         _values(proof),
         _spectrum(proof),
@@ -48,9 +48,9 @@ def proof_text(proof: Proof) -> str:
     if proof.margins:
         parts.append(_margins(proof))
     if proof.horizon is not None:
-        parts.append(_horizon(proof))
+        parts.append(horizon_text(proof.horizon))
     parts += [refutation_text(name, x) for name, x in proof.decisions.items() if x.verdict is Verdict.REFUTED]
-    parts.append(_ending(proof.decisions, proof.design.require))
+    parts.append(ending(proof.decisions, proof.design.require))
     return "\n".join(parts)
 
 
@@ -66,7 +66,7 @@ def uncertain_text(proof: UncertainProof) -> str:
     parts = ["\n".join([heading, *(f"note: {note}" for note in design.least.notes)]) + "\n"]
     parts += [verdict_table(proof.decisions, design.least.require), "\n".join(ranges) + "\n"]
     parts += [refutation_text(name, x) for name, x in proof.decisions.items() if x.verdict is Verdict.REFUTED]
-    parts.append(_ending(proof.decisions, design.least.require))
+    parts.append(ending(proof.decisions, design.least.require))
     return "\n".join(parts)
 
 
@@ -82,10 +82,12 @@ def _end(x: Fraction, rounded: Callable[[Fraction, int], str]) -> str:
     return rounded(x, 12)
 
 
-def _heading(design: Design) -> str:
+def heading(design: Design | LargeDesign) -> str:
+    """The design in a line, and the notes on its reading."""
     numbers = [("alpha", design.alpha), ("gamma", design.gamma), ("mu", design.mu), ("h", design.h)]
     given = ", ".join(f"{name} = {decimal(Interval.exactly(x), 20)}" for name, x in numbers if x is not None)
-    lines = [f"{design.name}: {given}; {design.graph.agents} agents, {len(design.graph.edges)} edges"]
+    edges = design.graph.edge_count if isinstance(design, LargeDesign) else len(design.graph.edges)
+    lines = [f"{design.name}: {given}; {design.graph.agents} agents, {edges} edges"]
     return "\n".join(lines + [f"note: {note}" for note in design.notes]) + "\n"
 
 
@@ -194,10 +196,8 @@ def _margins(proof: Proof) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _horizon(proof: Proof) -> str:
-    seen = proof.horizon
-    if seen is None:
-        return ""
+def horizon_text(seen: Horizon) -> str:
+    """What the samples of a horizon showed, with their least slack."""
     lines = [f"  (14) term by term at k = 0..{seen.last}: {held(seen)}"]
     smallest = decimal(seen.least_slack, 12)
     lines += [f"  relative slack 1 - beta^(k+1)/c_(k+1): smallest {smallest} at k = {seen.least_slack_at}"]
@@ -245,7 +245,8 @@ def _entry(x: Fraction) -> str:
     return format_rational(x)
 
 
-def _ending(decisions: Mapping[str, Decision], require: Sequence[str]) -> str:
+def ending(decisions: Mapping[str, Decision], require: Sequence[str]) -> str:
+    """The theorems behind the verdicts, and whether all that is required is proved."""
     decided = {name for name, x in decisions.items() if x.verdict in (Verdict.PROVED, Verdict.REFUTED)}
     rests = [f"{claim.ID} ({claim.COQ})" for claim in CLAIMS if claim.COQ and claim.ID in decided]
     lines = textwrap.wrap(

@@ -9,7 +9,7 @@ from math import lcm
 from typing import Final, TypeVar
 
 from fomas_verify.design.fields import Place, choice, count, number, positive, sequence, shown, table
-from fomas_verify.design.graph_table import MAX_AGENTS
+from fomas_verify.design.model import MAX_LISTED_AGENTS
 from fomas_verify.design.reading import ALPHA_LIMIT, read_alpha
 from fomas_verify.network import FAMILIES, SHAPED_FAMILIES
 
@@ -74,14 +74,14 @@ def read_agents(value: object, place: Place) -> tuple[int, ...]:
     if not isinstance(value, Mapping):
         return tuple(_list(value, place, read_agents_of_one))
     span = _span(value, place, number)
-    if span.start.denominator * span.step.denominator != 1 or not 2 <= span.start <= span.end <= MAX_AGENTS:
-        raise place.expected(f"a range of integers between 2 and {MAX_AGENTS}", value)
+    if span.start.denominator * span.step.denominator != 1 or not 2 <= span.start <= span.end <= MAX_LISTED_AGENTS:
+        raise place.expected(f"a range of integers between 2 and {MAX_LISTED_AGENTS}", value)
     return tuple(int(span[i]) for i in range(len(span)))
 
 
 def read_agents_of_one(value: object, place: Place) -> int:
     """Read the number of agents of one graph; raises `DesignError`."""
-    return count(value, place, 2, MAX_AGENTS)
+    return count(value, place, 2, MAX_LISTED_AGENTS)
 
 
 def read_families(value: object, place: Place) -> tuple[str, ...]:

@@ -18,7 +18,7 @@ from fomas_verify.design import Design, DesignError, design_from_mapping
 from fomas_verify.design.document import format_of, parse_document, read_text, source_name
 from fomas_verify.design.fields import Place, table
 from fomas_verify.design.graph_file import Folder, folder_of
-from fomas_verify.design.graph_table import read_graph
+from fomas_verify.design.graph_table import read_listed_graph
 from fomas_verify.exact.rational import format_rational
 from fomas_verify.network import SHAPED_FAMILIES
 from fomas_verify.sweep.axes import (
@@ -177,7 +177,7 @@ def _with_edges(
     given = base.get("graph")
     if not isinstance(given, Mapping) or "file" not in given:
         return base, None
-    graph, remarks = read_graph(given, place, folder)
+    graph, remarks = read_listed_graph(given, place, folder)
     edges = [[source, target, format_rational(weight)] for source, target, weight in graph.edges]
     return {**base, "graph": {"agents": graph.agents, "edges": edges}}, remarks
 
