@@ -1,137 +1,91 @@
-"""All benchmarks in one run: a line each, with the ratio that matters and what it should be."""
+"""Everything in one run: printed, and stored as a page with its chart.
 
+``python -m benchmarks [--quick] [--no-goals] [-o FOLDER]``. A quick run takes the two smallest sizes of everything,
+once, and leaves the goals out.
+"""
+
+from __future__ import annotations
+
+import argparse
 import json
-import random
 import tempfile
 from collections.abc import Iterator
-from fractions import Fraction
 from pathlib import Path
 
-from benchmarks import simulate, sweep, switching
-from benchmarks.gate import COUNT as GATE_COUNT
-from benchmarks.gate import rows as gate_rows
-from benchmarks.measure import Cost, run, typical
+from benchmarks import goals
+from benchmarks.chart import chart
+from benchmarks.designs import weighted_digraph
+from benchmarks.machine import machine
+from benchmarks.measure import Cost, typical, work
+from benchmarks.model import Point, Series
+from benchmarks.page import Results, page
+from benchmarks.topics import CHECKED, STARTS, STATUSES, TOOL, TOPICS, Topic
 
-PAPER = "examples/paper.toml"
-TOOL = ["-m", "fomas_verify"]
-SAMPLES = 1_000_000
-
-
-def weighted_digraph(agents: int, cycles: int, seed: int) -> dict[str, object]:
-    """A design on a balanced digraph: a sum of weighted random cycles through all agents."""
-    source = random.Random(seed)
-    weights: dict[tuple[int, int], Fraction] = {}
-    for _ in range(cycles):
-        order = source.sample(range(1, agents + 1), agents)
-        weight = Fraction(source.randrange(1, 100), 10)
-        for edge in zip(order, order[1:] + order[:1], strict=True):
-            weights[edge] = weights.get(edge, Fraction(0)) + weight
-    edges = [[*edge, str(weight)] for edge, weight in sorted(weights.items())]
-    return {"alpha": "0.9", "gamma": "0.025", "h": "0.85", "graph": {"agents": agents, "edges": edges}}
+NAME = "benchmarks"
 
 
-def line(name: str, figure: str, goal: str) -> str:
-    """A row of the table."""
-    return f"{name:<58} {figure:<34} {goal}"
+def measured(topic: Topic, *, quick: bool) -> Iterator[Series]:
+    """Each method of a topic that is there."""
+    for method in topic.methods:
+        if method.missing:
+            continue
+        points = []
+        for size in method.sizes[: 2 if quick else None]:
+            seconds, memory = work(method.name, size, 1 if quick else 5)
+            points.append(Point(topic.shown(size), seconds, memory))
+            print(f"{topic.title}: {method.words}, {topic.shown(size)} {topic.size}: {seconds:.4g} s", flush=True)
+        yield Series(method, tuple(points))
 
 
-def rows(folder: Path) -> Iterator[str]:
-    """Each measurement as it is made."""
-    yield from paper_rows(folder)
-    yield from sixty_agents(folder)
-    yield from sampled_rows(folder)
-    yield from region_rows(folder)
-    yield from (line(*row) for row in switching.rows((5, 12)))
-    yield from horizon_rows()
-    yield from (line(*row) for row in simulate.rows())
-    yield from (line(*row) for row in gate_rows(GATE_COUNT, 2))
-    yield from (line(*row) for row in sweep.rows())
+def started(*, quick: bool) -> dict[str, Cost]:
+    """The processes of the cold start."""
+    found = {}
+    for words, arguments in STARTS.items():
+        found[words] = typical(list(arguments), times=1 if quick else 5)
+        print(f"{words}: {found[words].cpu:.3g} s", flush=True)
+    return found
 
 
-def paper_rows(folder: Path) -> Iterator[str]:
-    """The paper's design: starting and proving against importing a solver, and checking."""
-    certificate = str(folder / "paper.json")
-    prove = typical([*TOOL, "prove", PAPER, "-o", certificate])
-    solver = typical(["-c", "import cvxpy"], times=3)
-    yield line("prove paper / import cvxpy, CPU", ratio(prove.cpu, solver.cpu), "below 1/4")
-    check = typical(["-I", "-S", "fomas_verify/checker", certificate])
-    yield line("check paper (standard library alone), wall", f"{check.wall:.3f} s", "below 0.2 s")
-    yield line("check paper / prove paper, CPU", ratio(check.cpu, prove.cpu), "")
+def checked(*, quick: bool) -> dict[int, tuple[Cost, Cost]]:
+    """Prover and checker by agents."""
+    found, times = {}, 1 if quick else 3
+    with tempfile.TemporaryDirectory() as folder:
+        file, certificate = Path(folder, "design.json"), str(Path(folder, "certificate.json"))
+        for agents in CHECKED[: 2 if quick else None]:
+            file.write_text(json.dumps(weighted_digraph(agents, 3, 1)))
+            prove = typical([*TOOL, "prove", str(file), "-o", certificate], times=times, accepted=STATUSES)
+            check = typical(["-I", "-S", "fomas_verify/checker", certificate], times=times)
+            found[agents] = prove, check
+            print(f"{agents} agents: prove {prove.cpu:.3g} s, check {check.cpu:.3g} s", flush=True)
+    return found
 
 
-def sixty_agents(folder: Path) -> Iterator[str]:
-    """N = 60: 60 agents on a weighted balanced digraph."""
-    design, certificate = folder / "sixty.json", str(folder / "sixty.certificate.json")
-    design.write_text(json.dumps(weighted_digraph(60, 3, 1)))
-    prove = typical([*TOOL, "prove", str(design), "-o", certificate], times=3, accepted=(0, 1))
-    yield line("prove N = 60, wall", f"{prove.wall:.2f} s", "below 3 s")
-    check = typical(["-I", "-S", "fomas_verify/checker", certificate], times=3)
-    yield line("check N = 60, wall", f"{check.wall:.2f} s", "below 3 s")
-
-
-def sampled_rows(folder: Path) -> Iterator[str]:
-    """Designs whose samples cost most: proved with every value, rate and margin, then checked."""
-    ring = {"graph": {"family": "directed-cycle", "agents": 20}, "alpha": "0.1", "mu": "1/2"}
-    slow = {"graph": {"family": "directed-cycle", "agents": 12}, "alpha": "0.9", "mu": "1/500"}
-    cases = {
-        "N = 50, weighted digraph": (weighted_digraph(50, 3, 1), "prove below 10 s"),
-        "directed 20-cycle, alpha = 0.1": (ring, "seconds"),
-        "directed 12-cycle, mu = 1/500, thousands of samples": (slow, "below 180 s"),
-    }
-    for i, (name, (design, goal)) in enumerate(cases.items()):
-        file, certificate = folder / f"sampled{i}.json", str(folder / f"sampled{i}.certificate.json")
-        file.write_text(json.dumps(design))
-        prove = run([*TOOL, "prove", str(file), "-o", certificate], accepted=(0, 1))
-        check = run(["-I", "-S", "fomas_verify/checker", certificate])
-        yield line(f"check / prove, {name}, CPU", ratio(check.cpu, prove.cpu), f"{goal}, ratio below 1")
-
-
-def region_rows(folder: Path) -> Iterator[str]:
-    """The region by the direct search, and its certificate checked."""
-    for name, design, goal in (
-        ("paper", None, "below 1 s"),
-        ("N = 30", weighted_digraph(30, 3, 1), "below 5 s"),
-        ("N = 60", weighted_digraph(60, 3, 1), "below 15 s"),
-    ):
-        file, certificate = folder / "region.json", str(folder / "region.certificate.json")
-        file.write_text(json.dumps(design))
-        about = PAPER if design is None else str(file)
-        found = typical([*TOOL, "region", about, "-o", certificate], times=3)
-        yield line(f"region {name}, wall", f"{found.wall:.2f} s", goal)
-        check = typical(["-I", "-S", "fomas_verify/checker", certificate], times=3)
-        yield line(f"check region {name}, wall", f"{check.wall:.2f} s", "")
-    solver, both = (
-        typical(["-c", "import cvxpy"], times=3),
-        typical([*TOOL, "region", PAPER, "--solver", "lmi"], times=3),
-    )
-    yield line("region paper --solver lmi, wall, less import cvxpy", f"{both.wall - solver.wall:.2f} s", "below 3 s")
-
-
-def horizon_rows() -> Iterator[str]:
-    """(14) term by term to a horizon, against the same loop in plain mpmath."""
-    baseline = run(["-m", "benchmarks.baseline_mpmath", str(SAMPLES)])
-    prove = [horizon(SAMPLES // 100), horizon(SAMPLES)]
-    yield line(f"mpmath loop / prove, --horizon {SAMPLES}, CPU", ratio(baseline.cpu, prove[1].cpu), "at least 10")
-    memory = f"{prove[0].memory:.0f} MB, {prove[1].memory:.0f} MB"
-    yield line(f"memory of prove, --horizon {SAMPLES // 100} and {SAMPLES}", memory, "flat, below 150 MB")
-
-
-def horizon(last: int) -> Cost:
-    """The cost of proving the paper's design with a horizon."""
-    return run([*TOOL, "prove", PAPER, "--horizon", str(last)])
-
-
-def ratio(numerator: float, denominator: float) -> str:
-    """Both seconds and their quotient."""
-    return f"{numerator:.2f} s / {denominator:.2f} s = {numerator / denominator:.3g}"
+def promised() -> Iterator[str]:
+    """The goals, printed as they are measured."""
+    with tempfile.TemporaryDirectory() as folder:
+        for row in (goals.HEAD, *goals.rows(Path(folder))):
+            print(row, flush=True)
+            yield row.rstrip()
 
 
 def main() -> None:
-    """Run and print."""
-    print(line("measured (medians, one process at a time)", "figure", "goal"))
-    with tempfile.TemporaryDirectory() as folder:
-        for row in rows(Path(folder)):
-            print(row, flush=True)
+    """Measure, print and store."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks", description=__doc__)
+    parser.add_argument("--quick", action="store_true", help="small sizes only, once each")
+    parser.add_argument("--no-goals", action="store_true", help="leave out what was promised of gate, sweep and others")
+    parser.add_argument("-o", "--output", type=Path, default=Path("docs"), metavar="FOLDER", help="[docs]")
+    options = parser.parse_args()
+    quick = options.quick
+    seen = list(machine())
+    topics = [(topic, list(measured(topic, quick=quick))) for topic in TOPICS]
+    missing = sorted({m.needs for topic in TOPICS for m in topic.methods if m.missing})
+    start, proved = started(quick=quick), checked(quick=quick)
+    lines = [] if quick or options.no_goals else list(promised())
+    found = Results(seen, topics, start, proved, missing, lines)
+    text = page(found, f"{NAME}.svg")
+    (options.output / f"{NAME}.svg").write_bytes(chart(topics))
+    (options.output / f"{NAME}.md").write_text(text, encoding="utf-8")
+    print(f"\n{text}")
 
 
 if __name__ == "__main__":

@@ -28,7 +28,7 @@ def measure(agents: int) -> dict[str, float]:
     import cvxpy  # noqa: F401
 
     spent = {"import": time.perf_counter() - start, "solver": 0.0}
-    from benchmarks.__main__ import weighted_digraph
+    from benchmarks.designs import weighted_digraph
     from fomas_verify.checker import check
     from fomas_verify.design import SwitchedDesign
     from fomas_verify.design.reading import named_from_mapping

@@ -15,7 +15,7 @@ from fomas_verify.cli.certified import Certified, certified_of
 from fomas_verify.cli.limits import limited
 from fomas_verify.cli.options import Count, allow_outside_option, design_argument, json_option
 from fomas_verify.cli.simulate_exactly import DIGITS, Beyond, enclosed, progress_bar, to_digits
-from fomas_verify.design import Design, DesignError, read_design
+from fomas_verify.design import Design, DesignError, LargeDesign, read_single
 from fomas_verify.enclosure.digits import decimal
 from fomas_verify.enclosure.interval import Interval
 
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from fomas_verify.simulate.trajectory import Trajectory
 
 CONTROLLERS = ("proposed", "memoryless", "truncated")
+MOST_AGENTS = 100_000
 LONG = 20_000_000
 """Samples times agents from which on progress is shown."""
 
@@ -107,7 +108,7 @@ def command(
     Example:  verify-design simulate examples/paper.toml --samples 200 --csv loop.csv --plot figures
     """
     _must_go_together(names, keep, csv_file, parquet, digits, enclose=enclose)
-    read = read_design(design, allow_outside=allow_outside)
+    read = _read(design, allow_outside=allow_outside)
     plant = _plant(read)
     points = max(between, POINTS_IN_FIGURES if plot is not None else 0)
     _must_fit(plant, samples, len(names), points, table=parquet is not None or enclose or digits is not None)
@@ -146,6 +147,11 @@ def _must_go_together(
         raise click.UsageError("--digits D says how many digits the CSV file has: give --csv FILE too")
     if parquet is not None and (digits is not None or enclose):
         raise click.UsageError("--parquet holds floats: leave out --digits and --enclose")
+
+
+def _read(path: Path, *, allow_outside: bool) -> Design:
+    found = read_single(path, allow_outside=allow_outside)
+    return found.listed(most=MOST_AGENTS) if isinstance(found, LargeDesign) else found
 
 
 def _plant(design: Design) -> Plant:

@@ -2,7 +2,7 @@
 
 What it prints and writes is held back until it has ended, so that a run that is ended leaves nothing. Its processes are
 a group of their own and are ended together. A library that is refused memory may abort or crash in place of raising an
-error: under a limit of memory such an end counts as one by that limit.
+error: under a limit of memory such an end counts as one by that limit. One that asks again and again is ended.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
+from enum import Enum
 from pathlib import Path
 from typing import IO, Any
 
@@ -25,11 +26,12 @@ import click
 from fomas_verify.cli.limits import Limits
 from fomas_verify.cli.machine import ended_by_sigterm
 from fomas_verify.cli.outcome import outcome
+from fomas_verify.cli.stuck import Watch
 from fomas_verify.exact.errors import FomasError, out_of_memory
 from fomas_verify.prover.limits import allow_memory, raise_beyond_memory
 from fomas_verify.report.files import hold_back, release
 
-LOOK_EVERY = 0.1
+LOOK_EVERY, STUCK_EVERY = 0.1, 1.0
 PATIENCE = 10.0
 """Seconds for a command that keeps what it has written to come to an end after it was asked to."""
 
@@ -113,16 +115,15 @@ def supervised(run: Run, limits: Limits, *, keeps: bool) -> int:
         tempfile.TemporaryDirectory(prefix="fomas-run-") as room,
         _child(run, limits, room, keeps=keeps) as child,
     ):
-        late = _watch(child, limits, keeps=keeps)
-        end = child.end
-        beyond = late or end is None or end["memory"]
-        if keeps or not beyond:
+        ended = _watch(child, limits, keeps=keeps)
+        if keeps or ended is _Ended.ITS_OWN:
             _pass_on(child.streams[1], err=True)
-        if late:
+        if ended is _Ended.TIME:
             raise LimitReachedError(f"kept within {limits.time_option}: this run needs longer; {_left(keeps=keeps)}")
-        if beyond and limits.memory is not None:
+        if ended is _Ended.MEMORY and limits.memory is not None:
             raise LimitReachedError(f"kept within {limits.memory_option}: this run needs more; {_left(keeps=keeps)}")
-        if end is None or end["memory"]:
+        end = child.end
+        if end is None or ended is _Ended.MEMORY:
             raise BrokenRunError("internal error: the process of this run was ended from outside, or ran out of memory")
         release((Path(x) if x else None, Path(y)) for x, y in end["files"])
         child.made.clear()
@@ -136,18 +137,31 @@ def _left(*, keeps: bool) -> str:
     return "what is written stays, and the same call goes on" if keeps else "it is ended, and nothing is written"
 
 
-def _watch(child: _Child, limits: Limits, *, keeps: bool) -> bool:
-    """Follow the child to its end; whether the time was over before."""
+class _Ended(Enum):
+    """How a run came to its end."""
+
+    ITS_OWN = "its own"
+    TIME = "time"
+    MEMORY = "memory"
+
+
+def _watch(child: _Child, limits: Limits, *, keeps: bool) -> _Ended:
+    """Follow the child to its end, or to that of its time or of its memory."""
     deadline = None if limits.seconds is None else time.monotonic() + float(limits.seconds)
+    watch, looked = Watch(child.pid), time.monotonic()
     while child.read(LOOK_EVERY if deadline is None else min(LOOK_EVERY, max(0.0, deadline - time.monotonic()))):
-        if deadline is not None and time.monotonic() >= deadline:
+        now = time.monotonic()
+        if deadline is not None and now >= deadline:
             if keeps:
                 os.kill(child.pid, signal.SIGTERM)
-                asked = time.monotonic()
-                while child.read(LOOK_EVERY) and time.monotonic() < asked + PATIENCE:
+                while child.read(LOOK_EVERY) and time.monotonic() < now + PATIENCE:
                     pass
-            return True
-    return False
+            return _Ended.TIME
+        if limits.memory is not None and now >= looked + STUCK_EVERY:
+            looked = now
+            if watch.stuck():
+                return _Ended.MEMORY
+    return _Ended.MEMORY if child.end is None or child.end["memory"] else _Ended.ITS_OWN
 
 
 @contextmanager

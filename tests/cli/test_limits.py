@@ -153,10 +153,17 @@ def test_sizes(text: str, size: int, shown: str) -> None:
     assert Limits(None, size).memory_option == f"--memory {shown}"
 
 
+INTERRUPTIBLE = """import signal
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a background job starts with it ignored
+from fomas_verify._entry import main
+main()
+"""
+
+
 @pytest.fixture
 def started(checkout: Path, tmp_path: Path) -> Iterator[tuple[subprocess.Popen[str], int]]:
     """A run under a limit that has far to go, and the process that does its work."""
-    call = [sys.executable, "-m", "fomas_verify", *map(str, ENDLESS), "--time-limit", "600"]
+    call = [sys.executable, "-c", INTERRUPTIBLE, *map(str, ENDLESS), "--time-limit", "600"]
     with subprocess.Popen(
         call, cwd=checkout, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
         env={**os.environ, "TMPDIR": str(tmp_path)},

@@ -195,6 +195,22 @@ def test_ten_thousand_agents(call: Verify, tmp_path: Path) -> None:
     assert len(errors(run.stdout)) == 2
 
 
+def test_more_agents_than_are_listed_elsewhere(call: Verify, tmp_path: Path) -> None:
+    path = tmp_path / "loop.csv"
+    graph = {"family": "torus", "shape": [101, 100]}
+    torus = design(tmp_path, alpha="9/10", gamma="1/5", h="1/2", x0=10_100 * [3], graph=graph)
+    run = call("simulate", torus, "--samples", 1, "--controller", "proposed", "--csv", path)
+    assert run.returncode == 0, run.stderr
+    for row in rows_of(path)[1:]:
+        assert {float(x) for x in row[3:10_103]} == {3.0}
+        assert {float(x) for x in row[10_103:]} == {0.0}
+
+
+def test_too_many_agents_are_refused_before_they_are_built(call: Verify, tmp_path: Path) -> None:
+    path = design(tmp_path, x0=None, graph={"family": "cycle", "agents": 100_001})
+    refused(call("simulate", path), "100001 agents, more than 100000")
+
+
 def test_an_unstable_design_is_stopped(call: Verify, tmp_path: Path) -> None:
     path = tmp_path / "loop.csv"
     run = call("simulate", design(tmp_path, gamma=30), "--samples", 5000, "--csv", path)
