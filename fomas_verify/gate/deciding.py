@@ -178,7 +178,7 @@ def _proved(named: AnyDesign, options: Options) -> tuple[str, Mapping[str, Decis
     only = None if options.margins else plain(named).require
     if isinstance(named, LargeDesign):
         large = prove_large(named, only=only)
-        return large.certificate(certificate_file(Path(), named.name).name), large.decisions, large.reason or ""
+        return large.certificate(certificate_file(Path(), named.name).name), large.decisions, "; ".join(large.notes)
     if isinstance(named, UncertainDesign):
         uncertain = prove_uncertain(named)
         return uncertain.certificate(), uncertain.decisions, ""

@@ -165,6 +165,12 @@ def test_what_is_refused_is_refused_in_one_line(
     assert (out, err.count("\n"), words in err) == ("", 1, True)
 
 
+def test_what_is_not_measured_is_told_on_standard_error(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "a.toml").write_text('settle_to = "1/100"\n' + TORUS)
+    assert main(["prove", str(tmp_path / "a.toml")]) == 1
+    assert capsys.readouterr().err == "note: settle_to: settling is not measured of more than 200 agents yet\n"
+
+
 def test_the_kernel_needs_no_graph(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "a.toml").write_text('alpha = 0.9\n[graph]\nfamily = "star"\nagents = 18446744073709551616\n')
     assert main(["kernel", str(tmp_path / "a.toml"), "--terms", "1"]) == 0
