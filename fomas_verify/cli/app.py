@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from importlib import import_module
 from typing import Any
 
@@ -28,8 +30,30 @@ COMMANDS = {
 WRONG_INPUT = 2
 
 
+class ReaderGoneError(Exception):
+    """The reader of standard output went away; click would end with status 1, which says "refuted"."""
+
+
+@contextmanager
+def _out_of_the_hands_of_click() -> Iterator[None]:
+    try:
+        yield
+    except BrokenPipeError:
+        raise ReaderGoneError from None
+
+
 class LazyGroup(click.Group):
     """A group that imports a command when it is used, so that starting costs nothing."""
+
+    def make_context(self, *arguments: Any, **options: Any) -> click.Context:
+        """The context; this prints what --help and --version ask for."""
+        with _out_of_the_hands_of_click():
+            return super().make_context(*arguments, **options)
+
+    def invoke(self, ctx: click.Context) -> Any:
+        """What the command returns."""
+        with _out_of_the_hands_of_click():
+            return super().invoke(ctx)
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """The names, in the order in which a user meets them."""
@@ -72,6 +96,8 @@ def main(arguments: list[str] | None = None) -> int:
         return WRONG_INPUT
     except click.exceptions.Abort:
         raise KeyboardInterrupt from None
+    except ReaderGoneError:
+        raise BrokenPipeError from None
     except click.ClickException as error:
         return _fail(" ".join(error.format_message().split()), WRONG_INPUT)
     except FomasError as error:
