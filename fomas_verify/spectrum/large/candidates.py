@@ -20,6 +20,10 @@ _WANTED = 2.0**-31
 _TOLERANCE = 1e-7
 _ROUGH_TOLERANCE = 1e-5
 _LONGEST = 2000
+_MOST_WORK = 2e9
+"""Products of numbers that may be spent on multiplying by a matrix."""
+
+_BASIS = 20
 
 
 def quotient(near: Near, x: NDArray[Any]) -> float:
@@ -47,13 +51,13 @@ def slowest_without_factor(near: Near) -> NDArray[Any] | None:
         return _dense(near, which=0)
     away = 4 * near.largest
     lifted = LinearOperator((n, n), matvec=lambda x: near.matrix @ _apart(x) + away * x.mean(), dtype=float)
-    return _lanczos(lifted, n, "SA", _TOLERANCE)
+    return _lanczos(lifted, n, "SA", _TOLERANCE, _restarts(near))
 
 
 def fastest(near: Near) -> NDArray[Any] | None:
     """A vector of 1perp near an eigenvector of the largest eigenvalue."""
     n = near.matrix.shape[0]
-    return _dense(near, which=-1) if n <= _SMALL else _lanczos(near.matrix, n, "LA", _ROUGH_TOLERANCE)
+    return _dense(near, which=-1) if n <= _SMALL else _lanczos(near.matrix, n, "LA", _ROUGH_TOLERANCE, _restarts(near))
 
 
 def integer_vector(near: Near, x: NDArray[Any]) -> tuple[int, ...] | None:
@@ -91,14 +95,19 @@ def _dense(near: Near, *, which: int) -> NDArray[Any]:
     return _apart(vectors[:, which])
 
 
-def _lanczos(operator: Any, n: int, which: str, tolerance: float) -> NDArray[Any] | None:
-    """One eigenvector, or the best found; the start is the same in every run."""
+def _restarts(near: Near) -> int:
+    """How often Lanczos' method may begin anew within `_MOST_WORK`."""
+    return int(min(_LONGEST, max(10.0, _MOST_WORK / (_BASIS * near.matrix.nnz))))
+
+
+def _lanczos(operator: Any, n: int, which: str, tolerance: float, restarts: int = _LONGEST) -> NDArray[Any] | None:
+    """One eigenvector; None where none is found. The start is the same in every run."""
     import numpy as np
     from scipy.sparse.linalg import ArpackError, ArpackNoConvergence, eigsh
 
     start = _apart(np.random.default_rng(0).standard_normal(n))
     try:
-        vectors = eigsh(operator, k=1, which=which, v0=start, tol=tolerance, maxiter=_LONGEST)[1]
+        vectors = eigsh(operator, k=1, which=which, v0=start, ncv=_BASIS, tol=tolerance, maxiter=restarts)[1]
     except ArpackNoConvergence as stopped:
         vectors = stopped.eigenvectors
     except ArpackError:

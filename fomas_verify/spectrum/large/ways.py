@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Protocol
 
 from fomas_verify.spectrum.large.dense import DenseFactors, dense_bytes
-from fomas_verify.spectrum.large.factor import BYTES_AN_ENTRY, Solve, SparseFactors
+from fomas_verify.spectrum.large.factor import BYTES_A_FRONT_ENTRY, BYTES_AN_ENTRY, Solve, SparseFactors
 from fomas_verify.spectrum.large.matrices import Near
 from fomas_verify.spectrum.large.ordering import elimination_order
 
@@ -38,7 +38,7 @@ def way_for(near: Near, memory: int) -> tuple[Way | None, str | None]:
     n = near.matrix.shape[0]
     dense = dense_bytes(n)
     order = elimination_order(near.matrix)
-    sparse = order.entries * BYTES_AN_ENTRY
+    sparse = order.entries * BYTES_AN_ENTRY + int(order.counts.max()) ** 2 * BYTES_A_FRONT_ENTRY
     costs: list[tuple[float, Way]] = []
     if sparse <= memory:
         costs.append((order.work * _SPARSE_COST, SparseFactors(order)))

@@ -13,6 +13,7 @@ from fomas_verify.spectrum.large.bounds import large_bounds
 from fomas_verify.spectrum.large.dense import DenseFactors
 from fomas_verify.spectrum.large.factor import SparseFactors
 from fomas_verify.spectrum.large.matrices import Near, scaled
+from fomas_verify.spectrum.large.ordering import elimination_order
 from fomas_verify.spectrum.large.ways import way_for
 from tests.spectrum.large.exact_counts import laplacian, negative_eigenvalues, random_network, shifted
 from tests.spectrum.large.test_large_bounds import MEMORY, assert_true, assert_vectors_fit, graph_of
@@ -63,6 +64,22 @@ def test_the_error_grows_with_the_trace() -> None:
     trace = near.matrix.diagonal().sum() - 50 * 0.5
     assert found is not None
     assert 0.5 - found > 51 * 2.0**-53 * trace
+
+
+@pytest.mark.parametrize("way", [DenseFactors(), None])
+def test_what_the_matrix_is_off_by_is_part_of_what_is_shown(way: DenseFactors | None) -> None:
+    near = scaled(sparse_family("grid", shape=(5, 7))).symmetric_part()
+    factors = way or SparseFactors(elimination_order(near.matrix))
+    values = np.linalg.eigvalsh(near.matrix.toarray())
+    off = Near(near.matrix, values[1] / 10)
+    lower, upper = factors.second_at_least(off, values[1] * 0.99), factors.all_at_most(off, values[-1] * 1.01)
+    assert lower is not None
+    assert upper is not None
+    assert lower == pytest.approx(values[1] * 0.89, rel=1e-5)
+    assert lower < values[1] * 0.89
+    assert upper == pytest.approx(values[-1] * 1.01 + values[1] / 10, rel=1e-5)
+    assert upper > values[-1] * 1.01 + values[1] / 10
+    assert factors.second_at_least(Near(near.matrix, values[1]), values[1] * 0.99) is None
 
 
 def test_a_graph_that_fills_in_takes_the_dense_way_and_one_that_does_not_the_sparse() -> None:
