@@ -108,8 +108,8 @@ def supervised(run: Run, limits: Limits, *, keeps: bool) -> int:
     FomasError
         What the command itself refused, or an internal error.
     """
-    if not hasattr(os, "fork"):
-        raise click.UsageError("--time-limit and --memory need a system that can fork, such as Linux")
+    if not (hasattr(os, "fork") and hasattr(os, "waitid")):
+        raise click.UsageError("--time-limit and --memory need a system such as Linux, which can fork and wait")
     with (
         ended_by_sigterm(),
         tempfile.TemporaryDirectory(prefix="fomas-run-") as room,

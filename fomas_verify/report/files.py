@@ -55,6 +55,12 @@ def hold_back(tell: Callable[[Path], None], *, names: bool = True) -> Held:
     """From now on tell each path that is made; with ``names`` nothing takes its own name before `release`."""
     global _held  # noqa: PLW0603  # this process writes for one run, which is watched or is not
     _held = Held(tell, names)
+    if names and sys.platform != "win32":
+        import resource
+
+        _, most = resource.getrlimit(resource.RLIMIT_NOFILE)
+        with suppress(OSError, ValueError):  # each file stays open, and so locked, until all of them have their names
+            resource.setrlimit(resource.RLIMIT_NOFILE, (most, most))
     return _held
 
 

@@ -22,6 +22,12 @@ QUICK = 'name = "{}"\nalpha = 0.9\nmu = 0.2\n[graph]\nfamily = "complete"\nagent
 TIME = "verify-design: kept within --time-limit {}: this run needs longer; it is ended, and nothing is written\n"
 MEMORY = "verify-design: kept within --memory {}: this run needs more; it is ended, and nothing is written\n"
 
+INTERRUPTIBLE = """import signal
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a background job starts with it ignored
+from fomas_verify._entry import main
+main()
+"""
+
 
 def designs(folder: Path, **texts: str) -> Path:
     folder.mkdir()
@@ -68,6 +74,19 @@ def test_the_gate_within_its_limits_writes_what_it_writes_without(verify: Verify
         runs[name] = (run.returncode, run.stdout, run.stderr, contents(out))
     assert runs["free"] == runs["limited"]
     assert runs["free"][0] == 0
+
+
+def test_more_files_than_may_be_open_by_default(checkout: Path, tmp_path: Path) -> None:
+    folder = designs(tmp_path / "designs", **{f"d{i}": QUICK for i in range(60)})
+    few = INTERRUPTIBLE.replace("main()", "import resource as r; limit = r.RLIMIT_NOFILE\n") + (
+        "r.setrlimit(limit, (50, r.getrlimit(limit)[1]))\nmain()\n"
+    )
+    call = ["gate", str(folder), "--jobs", "1", "--quiet", "-o", str(tmp_path / "out"), "--time-limit", "900"]
+    run = subprocess.run(
+        [sys.executable, "-c", few, *call], cwd=checkout, capture_output=True, text=True, check=False
+    )  # fmt: skip
+    assert (run.returncode, run.stdout, run.stderr) == (0, "", "")
+    assert len(contents(tmp_path / "out")) == 60
 
 
 CALLS = {
@@ -151,13 +170,6 @@ def test_sizes(text: str, size: int, shown: str) -> None:
     context = click.Context(click.Command("x"))
     assert _bytes(context, click.Option(["--memory"]), text) == size
     assert Limits(None, size).memory_option == f"--memory {shown}"
-
-
-INTERRUPTIBLE = """import signal
-signal.signal(signal.SIGINT, signal.default_int_handler)  # a background job starts with it ignored
-from fomas_verify._entry import main
-main()
-"""
 
 
 @pytest.fixture

@@ -16,6 +16,8 @@ from fomas_verify.spectrum.large.fronts import Fronts
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+_NARROW = 64
+
 
 def eliminated(matrix: Any, ranges: Fronts, most: int) -> tuple[Any, NDArray[Any]] | None:
     """(U as csc, d), d with at most `most` negative entries; None where there would be more, or one is 0.
@@ -115,18 +117,22 @@ def _panel(front: Any, width: int) -> tuple[Any, Any] | None:
     """(B, d) with the first columns of `front` near ``B diag(sign d) B_1^T``, B_1 the lower triangular top of B."""
     import numpy as np
     from scipy.linalg import solve_triangular
-    from scipy.linalg.lapack import dpotrf
 
-    corner, info = dpotrf(front[:width, :width], lower=1, clean=1)
     signs = np.ones(width)
-    if info:
+    try:
+        corner = np.linalg.cholesky(front[:width, :width])
+    except np.linalg.LinAlgError:
         found = _indefinite(front[:width, :width])
         if found is None:
             return None
         corner, signs = found
-    # Rows below: X diag(signs) corner^T = front.
-    below = solve_triangular(corner, front[width:, :width].T, lower=True, check_finite=False).T * signs
-    return np.concatenate([corner, below]), signs * corner.diagonal() ** 2
+    # Rows below: X diag(signs) corner^T = front. Most ranges are narrow: there scipy's BLAS, which is another than
+    # numpy's, would have its threads wait for those of the other.
+    if width <= _NARROW:
+        below = front[width:, :width] @ np.linalg.inv(corner).T
+    else:
+        below = solve_triangular(corner, front[width:, :width].T, lower=True, check_finite=False).T
+    return np.concatenate([corner, below * signs]), signs * corner.diagonal() ** 2
 
 
 def _indefinite(square: Any) -> tuple[Any, Any] | None:

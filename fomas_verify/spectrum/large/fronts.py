@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-_SMALL_TREE = 64
+_SMALL_TREE = 32
 _CHAIN, _NONE = -2, -3
 
 

@@ -36,17 +36,22 @@ def residual_norm(matrix: Any, lower: Any, pivots: NDArray[Any], ranges: Fronts)
     pivots : d, shape (N,)
     ranges : of columns; any give a true bound
     """
-    from scipy.sparse import csc_array, triu
+    import numpy as np
+    from scipy.sparse import csc_array
 
-    lower = csc_array(lower)
+    n = len(pivots)
     lower.sort_indices()
     # No NaN is <= anything.
     in_range = all(bool((abs(part) <= LARGEST).all()) for part in (lower.data, pivots, matrix.data))
-    if not in_range or (lower.diagonal() != 1).any() or triu(lower, k=1).nnz:
+    firsts = lower.indptr[:-1]
+    # Each column is to begin with its diagonal entry, which is 1.
+    if not in_range or (np.diff(lower.indptr) == 0).any() or (lower.data[firsts] != 1).any():
+        return float("inf")
+    if not np.array_equal(lower.indices[firsts], np.arange(n)):
         return float("inf")
     product = _Product(matrix, lower, pivots, ranges)
     product.form()
-    sizes, heights = abs(lower), abs(pivots)
+    sizes, heights = csc_array((abs(lower.data), lower.indices, lower.indptr), shape=(n, n)), abs(pivots)
     x = _weights(sizes, heights)
     hidden = sizes @ (gammas(product.roundings()) * heights * (sizes.T @ x)) + 4 * U * (abs(matrix) @ x)
     # What is seen is small everywhere, or large in a few full rows: the row sums or the Frobenius norm are near then.
