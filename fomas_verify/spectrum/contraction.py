@@ -17,7 +17,7 @@ from fomas_verify.exact import matrix as exact
 from fomas_verify.exact.numberfield import RealField, is_semidefinite, quadratic_in_theta
 from fomas_verify.exact.polynomial import Polynomial, irreducible_factors, scaled_roots
 from fomas_verify.spectrum.loop import Loop, decrease, least_decrease
-from fomas_verify.spectrum.remembered import of_graph
+from fomas_verify.spectrum.remembered import of_graph, of_loop
 
 FIELD_WORK = 1_000_000
 """Bound on ``degree^2 N^3`` for elimination over Q(lambda2)."""
@@ -28,8 +28,7 @@ ROUGH_END, SETTLED_END = 16, 90
 
 def directions(loop: Loop, mu: Fraction, bits: int) -> Iterator[list[Fraction]]:
     """Integer vectors that sum to 0, ever nearer to the one that P(mu) shrinks least."""
-    shift = least_decrease(loop.laplacian, mu, bits).lower
-    approximation = approx_eigenvector(decrease(loop.laplacian, mu), shift, bits)
+    approximation = _approx_direction(loop, mu, bits)
     scale = 1
     while scale <= bits:
         e = [Fraction(round(x * (1 << scale))) for x in approximation]
@@ -38,6 +37,13 @@ def directions(loop: Loop, mu: Fraction, bits: int) -> Iterator[list[Fraction]]:
         if any(e):
             yield e
         scale += 1 + scale // 2
+
+
+@of_loop
+def _approx_direction(loop: Loop, mu: Fraction, bits: int) -> list[Fraction]:
+    """A vector near the one that P(mu) shrinks least; two claims ask for it at the same mu."""
+    shift = least_decrease(loop.laplacian, mu, bits).lower
+    return approx_eigenvector(decrease(loop.laplacian, mu), shift, bits)
 
 
 def squared_stretch(loop: Loop, e: list[Fraction], mu: Interval) -> Interval:

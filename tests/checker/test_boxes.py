@@ -153,6 +153,14 @@ def test_lambda2_where_a_tie_takes_too_much_work_to_be_seen(monkeypatch: pytest.
     assert 1 - Fraction(1, 2**60) <= found.lower < 1 <= found.upper
 
 
+def test_lambda2_where_the_iteration_leads_nowhere(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where all entries end equal, (1, -1, 0, ..) stands in: on P4 its quotient is 5/2."""
+    monkeypatch.setattr(corners, "iterated", lambda rows, vector: [7] * len(vector))
+    found = corners._lambda2_above(graph(design(path(4), 4, "1/2", mu="1")))
+    assert Fraction(5, 2) <= found < Fraction(5, 2) + Fraction(1, 2**100)
+    assert corners._lambda2_above(graph(K2)) == 2
+
+
 def test_corners() -> None:
     """P4 at alpha = 1/2 and mu = 1: beta = 2^alpha - 1 exactly, sigma = 1 + sqrt 2; K2 at mu = 1/2 and 1."""
     half, zero, one = Fraction(1, 2), Fraction(0), Fraction(1)

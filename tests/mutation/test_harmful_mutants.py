@@ -49,6 +49,12 @@ HARMFUL = [
         "(-1, 1), _DECAY",
         "test_ties.py::test_a_trajectory_at_rest_after_one_step_still_needs_the_decay",
     ),
+    ("cosines", "Fraction(1, 2): Fraction(1),", "Fraction(1, 2): Fraction(2),", "test_cosines.py"),
+    ("cosines", "(square + 1) // 2", "square // 2", "test_cosines.py"),
+    ("large_bounds", "gap * (1 - mu.upper", "gap * (1 - mu.lower", "test_large_bounds.py"),
+    ("large_bounds", "if any(map(any, columns))", "if all(map(any, columns))", "test_large_bounds.py"),
+    ("large", "known.sigma_square(bits).upper < 1:", "known.sigma_square(bits).upper <= 1:", "test_large_bounds.py"),
+    ("network", "return self._degrees[0] == self", "return self._degrees[0] >= self", "test_network.py"),
 ]
 
 

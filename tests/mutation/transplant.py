@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 import sys
+from fractions import Fraction
 from functools import cached_property
 from pathlib import Path
 from types import FunctionType, ModuleType
@@ -11,7 +12,7 @@ from typing import Any
 
 CHECKER = Path(__file__).resolve().parents[2] / "fomas_verify" / "checker"
 PACKAGE = "fomas_verify.checker"
-CONSTANTS = (int, str, tuple, frozenset)
+CONSTANTS = (int, str, tuple, frozenset, Fraction)
 
 
 def transplant(name: str, source: str) -> None:
@@ -21,9 +22,15 @@ def transplant(name: str, source: str) -> None:
     exec(compile(source, str(module.__file__), "exec"), fresh)
     _swap(vars(module), fresh, module.__name__)
     for key, value in fresh.items():
-        if isinstance(value, CONSTANTS) and key in vars(module) and vars(module)[key] != value:
+        if _is_constant(value) and key in vars(module) and vars(module)[key] != value:
             _rebind(key, vars(module)[key], value)
     forget()
+
+
+def _is_constant(value: object) -> bool:
+    """Whether a mutation may have changed it: tables of numbers too, not those of functions."""
+    entries = [x for pair in value.items() for x in pair] if isinstance(value, dict) else [value]
+    return all(isinstance(entry, CONSTANTS) for entry in entries)
 
 
 def forget() -> None:
