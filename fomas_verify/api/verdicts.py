@@ -139,6 +139,8 @@ def prove(design: Design | Exact | str | PathLike[str], *, horizon: int | None =
     """
     exact = exact_design(design)
     found = _decided(exact, horizon, digits)
+    for note in found.notes if isinstance(found, LargeProof) else ():
+        LOG.info("%s: %s", plain_design(exact).name, note)
     for name, decision in found.decisions.items():
         LOG.info("%s: %s: %s", plain_design(exact).name, name, decision.verdict.value)
     return Proof(design if isinstance(design, Design) else Design.of(exact), found)

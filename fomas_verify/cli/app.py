@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from importlib import import_module
+from typing import Any
 
 import click
 
@@ -26,8 +29,30 @@ COMMANDS = {
 }
 
 
+class ReaderGoneError(Exception):
+    """The reader of standard output went away; click would end with status 1, which says "refuted"."""
+
+
+@contextmanager
+def _out_of_the_hands_of_click() -> Iterator[None]:
+    try:
+        yield
+    except BrokenPipeError:
+        raise ReaderGoneError from None
+
+
 class LazyGroup(click.Group):
     """A group that imports a command when it is used, so that starting costs nothing."""
+
+    def make_context(self, *arguments: Any, **options: Any) -> click.Context:
+        """The context; this prints what --help and --version ask for."""
+        with _out_of_the_hands_of_click():
+            return super().make_context(*arguments, **options)
+
+    def invoke(self, ctx: click.Context) -> Any:
+        """What the command returns."""
+        with _out_of_the_hands_of_click():
+            return super().invoke(ctx)
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """The names, in the order in which a user meets them."""
@@ -62,7 +87,10 @@ def app() -> None:
 
 def main(arguments: list[str] | None = None) -> int:
     """Run the command line and return the exit status."""
-    status, message = outcome(lambda: app.main(args=arguments, prog_name="verify-design", standalone_mode=False))
+    try:
+        status, message = outcome(lambda: app.main(args=arguments, prog_name="verify-design", standalone_mode=False))
+    except ReaderGoneError:
+        raise BrokenPipeError from None
     if message:
         sys.stderr.write(f"verify-design: {message}\n")
     return status

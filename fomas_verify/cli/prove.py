@@ -46,8 +46,8 @@ def command(
     """
     named = read_named(design, allow_outside=allow_outside)
     proof = _prove(named, horizon, digits, coq)
-    if isinstance(proof, LargeProof) and proof.reason is not None:
-        click.echo(f"note: {proof.reason}", err=True)
+    for note in proof.notes if isinstance(proof, LargeProof) else ():
+        click.echo(f"note: {note}", err=True)
     certificate = _certificate(proof, output, printed=as_json)
     if as_json:
         tell_notes(named)

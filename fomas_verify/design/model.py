@@ -1,9 +1,11 @@
 """A design: what is to be decided about, in exact numbers."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from fractions import Fraction
-from typing import Final, TypeAlias, overload
+from typing import Any, Final, TypeAlias, overload
 
 from fomas_verify.design.errors import DesignError
 from fomas_verify.design.fields import shown
@@ -17,6 +19,8 @@ MOST_AGENTS_EXACTLY: Final = 200
 MAX_LISTED_AGENTS: Final = 10_000
 """Agents up to which a graph is held with one Python object an edge."""
 MAX_LISTED_EDGES: Final = 1 << 22
+MAX_FAMILY_EDGES: Final = 1 << 20
+"""Three lines of a design must not ask for a hundred million edges."""
 
 State: TypeAlias = tuple[tuple[Fraction, ...], ...]
 
@@ -117,15 +121,23 @@ class LargeDesign(Given):
 
     graph: LargeGraph
 
+    @classmethod
+    def of(cls, design: Design) -> LargeDesign:
+        """The same design, to be decided from bounds whatever its size."""
+        return cls(**_given(design), graph=LargeGraph(listed=design.graph))
+
     def listed(self, *, most: int = MAX_LISTED_AGENTS) -> Design:
         """The same with one Python object an edge, for what needs that; raises `DesignError` beyond `most` agents."""
-        agents = self.graph.agents
-        if agents > most or self.graph.edge_count > MAX_LISTED_EDGES:
-            what = f"{shown(agents)} agents, more than {most}," if agents > most else f"{self.graph.edge_count} edges"
-            only = "only prove, check, gate and kernel take them"
-            raise DesignError(f"{self.source}: graph: {what} are not supported yet here: {only}")
-        given = {field.name: getattr(self, field.name) for field in fields(Given)}
-        return Design(**given, graph=self.graph.digraph())
+        agents, edges = self.graph.agents, self.graph.edge_count
+        if agents > most or edges > (MAX_LISTED_EDGES if self.graph.family is None else MAX_FAMILY_EDGES):
+            what = f"{shown(agents)} agents, more than {most}," if agents > most else f"{edges} edges"
+            others = "prove, check, gate and kernel take them"
+            raise DesignError(f"{self.source}: graph: {what} are not supported yet here; {others}")
+        return Design(**_given(self), graph=self.graph.digraph())
+
+
+def _given(design: Given) -> dict[str, Any]:
+    return {field.name: getattr(design, field.name) for field in fields(Given)}
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,8 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any, Final
 
-from fomas_verify.checker import Malformed, check
+from fomas_verify.checker import Malformed, beside, check
+from fomas_verify.checker.large import Numeric
 from fomas_verify.enclosure.digits import rounded_down
 from fomas_verify.gate.cache import LARGEST, certificate_file
 from fomas_verify.gate.model import FALSE, SHRUNK, UNDECIDED, WRONG_INPUT, Finding
@@ -24,7 +25,9 @@ NUMBERS: Final = ("alpha", "gamma", "mu", "h")
 _DIGITS: Final = 4
 
 
-def shrunk_margins(path: Path, required: Iterable[str], certificate: str, loss: Fraction) -> Iterator[Finding]:
+def shrunk_margins(
+    path: Path, required: Iterable[str], certificate: str, loss: Fraction, numeric: Numeric | None = None
+) -> Iterator[Finding]:
     """Compare the margins of required claims with those of a baseline.
 
     Parameters
@@ -37,6 +40,8 @@ def shrunk_margins(path: Path, required: Iterable[str], certificate: str, loss: 
         The design's certificate, accepted by the checker.
     loss : Fraction
         The share of each of the baseline's margins that may be lost, from 0 to 1.
+    numeric : Numeric, optional
+        Redoes what takes a factor of a large network's baseline, which has no margins.
 
     Yields
     ------
@@ -48,7 +53,7 @@ def shrunk_margins(path: Path, required: Iterable[str], certificate: str, loss: 
     try:
         with path.open("rb") as file:
             data = file.read(LARGEST + 1)
-        status = check(data).exit_status
+        status = check(data, opener=beside(path), numeric=numeric).exit_status
     except (OSError, Malformed) as error:
         reason = error.strerror if isinstance(error, OSError) else str(error)
         yield Finding(SHRUNK, "", WRONG_INPUT, f"{path}: expected a certificate, got: {reason}")

@@ -164,7 +164,7 @@ def _decided(named: AnyDesign, answer: Result, options: Options) -> Result:
     if options.baseline is not None:
         former_file = certificate_file(options.baseline, answer.name)
         if os.path.lexists(former_file):
-            findings += shrunk_margins(former_file, answer.required, answer.certificate, options.loss)
+            findings += shrunk_margins(former_file, answer.required, answer.certificate, options.loss, options.numeric)
         elif options.new_ok:
             answer = replace(answer, note="; ".join(filter(None, ("new: no baseline", answer.note))))
         else:
@@ -178,7 +178,7 @@ def _proved(named: AnyDesign, options: Options) -> tuple[str, Mapping[str, Decis
     only = None if options.margins else plain(named).require
     if isinstance(named, LargeDesign):
         large = prove_large(named, only=only)
-        return large.certificate(certificate_file(Path(), named.name).name), large.decisions, large.reason or ""
+        return large.certificate(certificate_file(Path(), named.name).name), large.decisions, "; ".join(large.notes)
     if isinstance(named, UncertainDesign):
         uncertain = prove_uncertain(named)
         return uncertain.certificate(), uncertain.decisions, ""

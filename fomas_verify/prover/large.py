@@ -29,6 +29,7 @@ from fomas_verify.spectrum.large import LargeBounds, large_bounds
 from fomas_verify.spectrum.large_loop import LargeLoop, enclosed_gain
 
 SOLVER = "scipy"
+NO_SETTLING = "settle_to: settling is not measured of more than 200 agents yet"
 MOST_BITS = 900
 """Of a value in the certificate: the checker's enclosures have 1024."""
 MOST_VECTOR_TEXT = 40 << 20
@@ -55,9 +56,11 @@ class LargeProof:
         return exit_status_of(self.design.require, self.decisions)
 
     @property
-    def reason(self) -> str | None:
-        """What was not affordable; None where nothing is missing."""
-        return self.loop.bounds.reason
+    def notes(self) -> tuple[str, ...]:
+        """What was not affordable, and what is not measured of a large network; a line each."""
+        reason = () if self.loop.bounds.reason is None else (self.loop.bounds.reason,)
+        settling = () if self.design.settle_to is None else (NO_SETTLING,)
+        return reason + settling
 
     @property
     def edge_list(self) -> bytes | None:

@@ -25,7 +25,7 @@ from fomas_verify.claims.verdict import Decision, Verdict, inapplicable
 from fomas_verify.exact.rational import format_rational
 from fomas_verify.network.quotients import Quotients
 from fomas_verify.prover import large_remedies as remedies
-from fomas_verify.prover.large_words import bounded, numbers
+from fomas_verify.prover.large_words import bounded, compared, numbers
 from fomas_verify.spectrum.large_loop import LargeLoop, square
 
 PRECISIONS = (128, 256, 512, 1024)
@@ -188,16 +188,52 @@ def _rooted(loop: LargeLoop, bits: int) -> Truth:
 
 def _root_words(loop: LargeLoop, bits: int) -> str:
     if loop.facts.has_root:
-        return f"some agent reaches every other, and {numbers(loop, bits, 'mu', '1/Delta_max')}"
+        return f"some agent reaches every other, and {compared(loop, bits, 'mu', '1/Delta_max')}"
     return "the graph has no agent from which every other is reached: 1 is a multiple eigenvalue of P at every mu"
 
 
-def _of(*names: str) -> Words:
-    return lambda loop, bits: numbers(loop, bits, *names)
+def _comparing(one: str, other: str) -> Words:
+    return lambda loop, bits: compared(loop, bits, one, other)
+
+
+def _consensus_words(loop: LargeLoop, bits: int) -> str:
+    if below(loop, bits):
+        return compared(loop, bits, "mu", "1/Delta_max")
+    if loop.facts.is_symmetric:
+        reach = loop.reach(bits)
+        sign = " < 2" if reach.upper < 2 else " >= 2" if reach.lower >= 2 else ", to be below 2"
+        return f"mu lambda_max = {bounded(reach)}{sign}"
+    return f"{compared(loop, bits, 'mu', '1/Delta_max')}; {numbers(loop, bits, 'sigma')}"
+
+
+def _contraction_words(loop: LargeLoop, bits: int) -> str:
+    if _contraction(loop, bits):
+        return f"sigma = {numbers(loop, bits, 'beta')}"
+    return compared(loop, bits, "sigma", "beta")
+
+
+def _norm_words(loop: LargeLoop, bits: int) -> str:
+    """What decided, in the order in which it was looked at."""
+    beta, threshold = loop.beta(bits), loop.threshold(bits)
+    if _repaired(loop, bits):
+        return f"{compared(loop, bits, 'sigma', '2^alpha - 1')}: the repaired Theorem 1"
+    if beta.lower > threshold.upper:
+        return compared(loop, bits, "beta", "2^alpha - 1")
+    if any(loop.first_sample_square(x, bits).lower > 1 for x in loop.quotients):
+        return "norm Phi_1 e > norm e for a vector e in the certificate"
+    if loop.facts.is_symmetric:
+        return f"{compared(loop, bits, 'beta', '2^alpha - 1')}, {numbers(loop, bits, 'mu lambda_max')}"
+    return f"{compared(loop, bits, 'beta', '2^alpha - 1')}, {numbers(loop, bits, 'sigma')}"
 
 
 def _said(text: str) -> Words:
     return lambda *_: text
+
+
+def _memory_words(loop: LargeLoop, bits: int) -> str:
+    """The threshold on beta's side of 0."""
+    upper = loop.beta(bits).lower >= 0
+    return compared(loop, bits, "beta", "2^alpha - 1" if upper else "-sqrt(3^alpha - 2^alpha)")
 
 
 def _memory_meaning(loop: LargeLoop, bits: int) -> str:
@@ -213,27 +249,22 @@ def first_failure(loop: LargeLoop, decision: Decision) -> int | None:
     return 0 if loop.beta(bits).lower > loop.threshold(bits).upper else 1
 
 
-_MU = _of("mu", "1/Delta_max", "sigma", "mu lambda_max")
 RULES: dict[str, Rule] = {
-    gain_bound.ID: Rule(below, _of("mu", "1/Delta_max"), _said(gain_bound.MEANING), remedies.gain_bound),
-    memory_inequality.ID: Rule(
-        _memory, _of("beta", "2^alpha - 1", "-sqrt(3^alpha - 2^alpha)"), _memory_meaning, remedies.memory
-    ),
-    perron_eigenvalues.ID: Rule(_consensus, _MU, _said(perron_eigenvalues.MEANING), remedies.consensus),
-    beta_contraction.ID: Rule(
-        _contraction, _of("sigma", "beta"), _said(beta_contraction.MEANING), remedies.contraction
-    ),
+    gain_bound.ID: Rule(below, _comparing("mu", "1/Delta_max"), _said(gain_bound.MEANING), remedies.gain_bound),
+    memory_inequality.ID: Rule(_memory, _memory_words, _memory_meaning, remedies.memory),
+    perron_eigenvalues.ID: Rule(_consensus, _consensus_words, _said(perron_eigenvalues.MEANING), remedies.consensus),
+    beta_contraction.ID: Rule(_contraction, _contraction_words, _said(beta_contraction.MEANING), remedies.contraction),
     repaired_condition.ID: Rule(
-        _repaired, _of("sigma", "2^alpha - 1"), _said(repaired_condition.MEANING), remedies.repaired
+        _repaired, _comparing("sigma", "2^alpha - 1"), _said(repaired_condition.MEANING), remedies.repaired
     ),
     control_norm_bound.ID: Rule(
         _norm_bound,
-        _of("beta", "sigma", "2^alpha - 1", "mu lambda_max"),
+        _norm_words,
         _said(control_norm_bound.MEANING),
         remedies.norm_bound,
     ),
-    control_bounded.ID: Rule(_consensus, _MU, _said(control_bounded.MEANING), remedies.consensus),
-    average_consensus.ID: Rule(_consensus, _MU, _said(average_consensus.MEANING), remedies.consensus),
+    control_bounded.ID: Rule(_consensus, _consensus_words, _said(control_bounded.MEANING), remedies.consensus),
+    average_consensus.ID: Rule(_consensus, _consensus_words, _said(average_consensus.MEANING), remedies.consensus),
 }
 WITHOUT_ASSUMPTION: dict[str, Rule] = {
     gain_bound.ID: RULES[gain_bound.ID],

@@ -18,6 +18,16 @@ def numbers(loop: LargeLoop, bits: int, *names: str) -> str:
     return ", ".join(f"{name} = {bounded(x)}" for name, x in found.items() if x is not None)
 
 
+def compared(loop: LargeLoop, bits: int, one: str, other: str) -> str:
+    """``mu = 0.1... < 1/Delta_max = 1/4``; a comma for the sign where the enclosures do not tell."""
+    x, y = _named(loop, bits, one), _named(loop, bits, other)
+    if x is None or y is None:
+        return numbers(loop, bits, one, other)
+    order = x.compare(y)
+    sign = ", " if order is None else (" < ", " = ", " > ")[order + 1]
+    return f"{one} = {bounded(x)}{sign}{other} = {bounded(y)}"
+
+
 def bounded(x: Interval) -> str:
     """The number, or what it lies between."""
     if x.is_exact or x.width * TIGHT < max(abs(x.lower), abs(x.upper)):

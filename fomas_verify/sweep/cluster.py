@@ -34,9 +34,9 @@ def compute_there(plan: Plan, parts: Iterable[int], address: str, say: Say) -> I
         The scheduler cannot be reached or has no worker within ten seconds, a worker has another version, or the
         scheduler is lost on the way.
     """
-    from distributed import KilledWorker
-
     with _client(address) as client:
+        from distributed import KilledWorker
+
         _agree(client, plan, address)
         crew = _Crew(client, address, say)
         with client.get_executor(pure=False) as executor:

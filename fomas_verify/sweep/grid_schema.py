@@ -9,6 +9,7 @@ import json
 from importlib.resources import files
 from typing import Any, Final
 
+from fomas_verify.design.model import MAX_LISTED_AGENTS
 from fomas_verify.network import FAMILIES, SHAPED_FAMILIES
 from fomas_verify.sweep.axes import MAX_LISTED, MAX_STEPS, RANGE
 from fomas_verify.sweep.grid import OF_GRAPHS
@@ -36,6 +37,7 @@ def grid_schema() -> Schema:
     found: Schema = json.loads(files("fomas_verify.design").joinpath("design.schema.json").read_text("utf-8"))
     single = {name: {**_ref(kind), "description": f"{words}."} for name, (kind, words) in NUMBERS.items()}
     del found["oneOf"], found["properties"]["graphs"]
+    found["definitions"]["agents"]["maximum"] = MAX_LISTED_AGENTS
     found |= {
         "$id": "urn:fomas-verify:fomas-grid/1",
         "title": "fomas-grid/1",

@@ -1,8 +1,8 @@
 """The attack at any size: `python -m tests.attack --mutants 100000 --designs 10000`.
 
-`--kinds` and `--switched` are the numbers of mutants of certificates of regions and syntheses, and of graphs to switch
-among. Prints the figures and exits 1 if a false certificate was accepted, a verdict was wrong, fewer than 95 % of the
-true mutants were accepted, or 1 % of the verdicts or more were left undecided.
+`--kinds`, `--switched` and `--large` are the numbers of mutants of certificates of regions and syntheses, of graphs to
+switch among, and of large networks. Prints the figures and exits 1 if a false certificate was accepted, a verdict was
+wrong, fewer than 95 % of the true mutants were accepted, or 1 % of the verdicts or more were left undecided.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from collections import Counter
 from collections.abc import Iterable
 from functools import partial
 
-from . import handmade_family, kinds, switched_truth
+from . import handmade_family, kinds, large, switched_truth
 from .conftest import WITH_MARGINS
 from .designs import FAMILIES, NAMED
 from .differential import Comparison, compare
@@ -106,6 +106,10 @@ def _of_switched(seed: int, count: int, start: int) -> Tally:
     return switched_truth.attack(seed, min(CHUNK, count - start), start)
 
 
+def _of_large(golden: dict[str, bytes], seed: int, count: int, start: int) -> Tally:
+    return large.attack(golden, seed, min(CHUNK, count - start), start)
+
+
 def main(arguments: list[str]) -> int:
     """Run the attack; 0 if prover and checker stood it."""
     parser = argparse.ArgumentParser(prog="python -m tests.attack", description=__doc__)
@@ -113,6 +117,7 @@ def main(arguments: list[str]) -> int:
     parser.add_argument("--designs", type=int, default=300)
     parser.add_argument("--kinds", type=int, default=0)
     parser.add_argument("--switched", type=int, default=0)
+    parser.add_argument("--large", type=int, default=0)
     parser.add_argument("--fields", action="store_true", help="also every edit of every field of each certificate")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=multiprocessing.cpu_count())
@@ -131,6 +136,10 @@ def main(arguments: list[str]) -> int:
             drawn_switched = partial(_of_switched, given.seed, given.switched)
             chunks = range(0, given.switched, CHUNK)
             well.append(attack_kind("graphs to switch among", pool.imap_unordered(drawn_switched, chunks)))
+        if given.large:
+            drawn_large = partial(_of_large, large.golden(), given.seed, given.large)
+            chunks = range(0, given.large, CHUNK)
+            well.append(attack_kind("large networks", pool.imap_unordered(drawn_large, chunks)))
     return 0 if all(well) else 1
 
 

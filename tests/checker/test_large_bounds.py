@@ -13,6 +13,7 @@ import mpmath
 import numpy as np
 import pytest
 
+from fomas_verify.checker import large_bounds
 from fomas_verify.checker.edge_list import network_of
 from fomas_verify.checker.families import Family
 from fomas_verify.checker.large import _consensus, _contraction, _norm_bound, _redone
@@ -20,6 +21,7 @@ from fomas_verify.checker.large_bounds import Known, LargeGraph
 from fomas_verify.checker.large_form import LargeDesign
 from fomas_verify.checker.network import Network
 from fomas_verify.checker.powers import Enclosure
+from fomas_verify.checker.ruling import Undecided
 from tests.checker.large_networks import family_edges, laplacian
 
 BITS = 128
@@ -131,6 +133,54 @@ def test_sigma_of_a_directed_cycle(mu: tuple[str, str], gap: tuple[str, str]) ->
     assert exact.lower == exact.upper == max(1 - 2 * bend, 1 - 4 * bend)
 
 
+def test_sigma_of_a_directed_cycle_is_that_of_its_spectrum() -> None:
+    for mu, square in (("1/2", F(1, 2)), ("3/2", F(4))):
+        found = known(Family("directed-cycle", 4, None), mu=(mu, mu)).sigma_square(BITS)
+        assert found.lower == found.upper == square
+    wide = known(Family("directed-cycle", 4, None), mu=("3/2", "8/5")).sigma_square(BITS)
+    assert wide.lower <= 4
+    assert wide.upper >= 1 + 4 * F(8, 5) * F(3, 5)
+
+
+def test_a_vector_bounds_sigma_from_below() -> None:
+    """norm(P e)^2 / norm(e)^2 on a directed ring, for mu anywhere in its enclosure."""
+    network = listed("directed-cycle", 5)
+    for e in ([1, -1, 0, 0, 0], [1, -1, 1, -1, 0], [3, 1, -2, -2, 0]):
+        pair = network.quotients([e])
+        for ends in ((F(3, 2), F(3, 2)), (F(1), F(5, 4)), (F(2), F(3)), (F(1, 4), F(1, 3))):
+            values = [
+                F(sum((x - m * (x - e[i - 1])) ** 2 for i, x in enumerate(e))) / sum(x * x for x in e)
+                for m in inside(ends)
+            ]
+            found = known(network, mu=ends, quotients=[pair]).sigma_square(BITS)
+            assert found.lower <= min(values)
+            alone = 1 - 2 * ends[1] * pair[0] + ends[0] ** 2 * pair[1]
+            assert found.lower >= alone
+            if ends[0] == ends[1]:
+                assert found.lower >= values[0] == alone
+
+
+def test_the_gain_bound_counts_where_it_is_met() -> None:
+    """mu D = 1: sigma <= 1."""
+    assert known(listed("directed-cycle", 4), mu=(1, 1)).sigma_square(BITS).upper == 1
+
+
+def test_the_spectrum_of_a_list() -> None:
+    """Of L_s between 0 and 2 D, the largest eigenvalue at least D; vectors and factors bring the ends nearer."""
+    network = listed("star", 4)  # D = 3, the eigenvalues 0, 1, 1, 4
+    alone = known(network)
+    assert (alone.lambda2(BITS), alone.lambda_max(BITS)) == (Enclosure(F(0), F(6)), Enclosure(F(3), F(6)))
+    quotients = [network.quotients([e]) for e in ([0, 1, -1, 0], [3, -1, -1, -1])]
+    assert [q for q, _ in quotients] == [1, 4]
+    seen = known(network, quotients=quotients)
+    assert (seen.lambda2(BITS), seen.lambda_max(BITS)) == (Enclosure(F(0), F(1)), Enclosure(F(4), F(6)))
+    factors = [("lambda2_lower", F(1, 2)), ("lambda_max_upper", F(9, 2))]
+    redone = known(network, by_factor=factors)
+    assert (redone.lambda2(BITS), redone.lambda_max(BITS)) == (Enclosure(F(1, 2), F(6)), Enclosure(F(3), F(9, 2)))
+    silly = known(network, by_factor=[("lambda2_lower", F(-1, 2)), ("lambda_max_upper", F(9))])
+    assert (silly.lambda2(BITS).lower, silly.lambda_max(BITS).upper) == (0, 6)
+
+
 def test_sigma_where_nothing_else_is_known() -> None:
     """norm P <= 1 + 2 mu D, and what a factor showed, whichever is less."""
     network = listed("directed-cycle", 4)
@@ -161,6 +211,33 @@ EVERY_FAMILY = [
 ]
 
 
+TINY = mpmath.mpf(10) ** -55
+
+
+def real(x: Fraction) -> mpmath.mpf:
+    return mpmath.mpf(x.numerator) / x.denominator
+
+
+def closed_form(name: str, n: int, shape: tuple[int, int] | None) -> tuple[mpmath.mpf, mpmath.mpf]:
+    """Both ends of the spectrum on 1perp, from the eigenvalues of circulant matrices and of paths one by one."""
+    pi, cos = mpmath.pi, mpmath.cos
+    ring = lambda m: [2 - 2 * cos(2 * pi * k / m) for k in range(m)] if m > 2 else [0, 2]  # noqa: E731
+    line = lambda m: [2 - 2 * cos(pi * k / m) for k in range(m)]  # noqa: E731
+    if shape is not None:
+        one, two = map(ring if name == "torus" else line, shape)
+        found = [x + y for x in one for y in two]
+    elif name == "hypercube":
+        found = [2 * bin(k).count("1") for k in range(n)]
+    elif name in ("star", "complete"):
+        found = [0, *([1 if name == "star" and n > 2 else n] * (n - 2)), n]
+    elif name == "directed-cycle":
+        found = [1 - cos(2 * pi * k / n) for k in range(n)]
+    else:
+        found = ring(n) if name == "cycle" else line(n)
+    ordered = sorted(mpmath.mpf(x) for x in found)
+    return ordered[1], ordered[-1]
+
+
 @pytest.mark.parametrize(("name", "n", "shape"), EVERY_FAMILY, ids=str)
 def test_the_spectrum_of_a_family(name: str, n: int, shape: tuple[int, int] | None) -> None:
     family = Family(name, n, shape)
@@ -170,6 +247,9 @@ def test_the_spectrum_of_a_family(name: str, n: int, shape: tuple[int, int] | No
     for x, exact in ((family.lambda2(BITS), found[1]), (family.lambda_max(BITS), found[-1])):
         assert abs(float(x.lower) - exact) < 1e-9
         assert 0 <= x.upper - x.lower < F(1, 2**100)
+    with mpmath.workdps(60):
+        for x, y in zip((family.lambda2(8), family.lambda_max(8)), closed_form(name, n, shape), strict=True):
+            assert real(x.lower) - TINY <= y <= real(x.upper) + TINY
     network = network_of(family)
     pairs = {(s + 1, t + 1) for s, t in zip(network.sources, network.targets, strict=True)}
     assert pairs == {(source, target) for source, target, _ in edges}
@@ -251,5 +331,19 @@ def test_a_state_of_two_dimensions_moves_where_one_does() -> None:
     found = Known(about(x0=state), LargeGraph(None, listed("directed-cycle", 4)))
     # L e = (1, -1, 0, 0), turned once more (1, -2, 1, 0)
     assert found.error_quotients == (F(3, 2), F(3))
+    thirds = tuple((x,) for x in (F(1, 3), F(1, 2), F(0), F(-1)))
+    scaled = tuple((6 * x,) for (x,) in thirds)
+    one, six = (Known(about(x0=x), found.graph).error_quotients for x in (thirds, scaled))
+    assert one == six is not None
     still = Known(about(x0=tuple((F(1), F(2)) for _ in range(4))), LargeGraph(None, listed("directed-cycle", 4)))
     assert still.error_quotients is None
+
+
+def test_a_state_is_as_long_as_its_entries_over_one_denominator(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Four entries of at most three bits, and two bits of a common denominator 3."""
+    state = tuple((x,) for x in (F(1, 3), F(7), F(0), F(0)))
+    monkeypatch.setattr(large_bounds, "MAX_STATE_BITS", 20)
+    assert Known(about(x0=state), LargeGraph(Family("cycle", 4, None), None)).error_quotients is not None
+    monkeypatch.setattr(large_bounds, "MAX_STATE_BITS", 19)
+    with pytest.raises(Undecided, match="so large a common denominator"):
+        _ = Known(about(x0=state), LargeGraph(Family("cycle", 4, None), None)).error_quotients

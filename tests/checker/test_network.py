@@ -8,7 +8,8 @@ from typing import Any
 
 import pytest
 
-from fomas_verify.checker import Malformed, edge_list, large_form
+from fomas_verify.checker import Malformed, edge_list, large_bounds, large_form
+from fomas_verify.checker import network as network_module
 from fomas_verify.checker.edge_list import read_edge_list
 from fomas_verify.checker.network import Network
 from tests.checker.large_networks import certificate, checked, design, file_graph
@@ -67,6 +68,9 @@ def test_roots_and_reach_of_every_digraph_on_three_agents() -> None:
 
 
 def test_symmetry_is_that_of_the_weights_too() -> None:
+    for weights in itertools.product((1, 2), repeat=6):
+        edges = dict(zip([(i, j) for i in (1, 2, 3) for j in (1, 2, 3) if i != j], weights, strict=True))
+        assert network(3, edges).is_symmetric == all(edges[j, i] == w for (i, j), w in edges.items())
     assert network(2, {(1, 2): 3, (2, 1): 3}).is_symmetric
     assert not network(2, {(1, 2): 3, (2, 1): 2}).is_symmetric
 
@@ -127,6 +131,13 @@ def test_the_denominator_has_its_limit(bits: int, monkeypatch: pytest.MonkeyPatc
     else:
         with pytest.raises(Malformed, match="at most 4 bits"):
             read(data)
+
+
+def test_the_limits_are_those_that_the_format_names() -> None:
+    assert (large_form.MAX_AGENTS, large_form.MAX_EDGES, edge_list.MAX_EDGES) == (2**22, 2**24, 2**24)
+    assert (edge_list.MAX_FILE_BYTES, edge_list.MAX_DENOMINATOR_BITS) == (2**29, 2**12)
+    assert (network_module.MAX_AGENTS, network_module.MAX_EDGES) == (2**22, 2**24)
+    assert large_bounds.MAX_STATE_BITS == 2**30
 
 
 def about(graph: Any, agents: int) -> Any:

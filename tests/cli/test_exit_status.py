@@ -18,6 +18,8 @@ FILES = {
     "good.toml": 'name = "good"\nalpha = 0.9\nmu = 0.2\n[graph]\nfamily = "complete"\nagents = 4\n',
     "false.toml": 'name = "false"\nalpha = 0.9\nmu = 1\n[graph]\nfamily = "directed-cycle"\nagents = 5\n',
     "large.toml": 'name = "large"\nalpha = 0.9\nmu = 0.1\n[graph]\nfamily = "cycle"\nagents = 201\n',
+    "open.toml": 'name = "open"\nalpha = 0.99985\nmu = 0.5\n[graph]\nfamily = "directed-cycle"\nagents = 201\n'
+    '[gate]\nrequire = ["control-norm-bound"]\n',
     "start.toml": 'alpha = 0.9\ngamma = 0.2\nh = 0.85\nx0 = [1, 2, 4]\n[graph]\nfamily = "complete"\nagents = 3\n',
     "shut.toml": 'alpha = 0.5\n[graph]\nfamily = "directed-cycle"\nagents = 5\n',
     "steps.toml": 'gate.require = ["beta-contraction"]\nalpha = 0.9\ngraph = {family = "directed-cycle", agents = 3}\n',
@@ -63,7 +65,7 @@ TABLE: dict[str, dict[int, list[tuple[str, str]]]] = {
         0: [("prove good.toml", ""), ("prove good.toml --json", "")],
         1: [("prove false.toml", ""), ("prove false.toml -o out.json", "")],
         2: [("prove broken.toml", ""), ("prove", ""), ("prove good.toml -o no/where.json", "")],
-        3: [("prove large.toml", "")],
+        3: [("prove open.toml", ""), ("prove open.toml -o out.json", "")],
         4: [("prove good.toml", THRESHOLD)],
         130: [("prove good.toml", INTERRUPT.format("cli.prove", "prove"))],
     },
@@ -127,14 +129,14 @@ TABLE: dict[str, dict[int, list[tuple[str, str]]]] = {
     },
     "gate": {
         0: [("gate designs", ""), ("gate good.toml --json", "")],
-        1: [("gate good.toml -j 1 false.toml large.toml broken.toml", "")],
+        1: [("gate good.toml -j 1 false.toml open.toml broken.toml", "")],
         2: [
-            ("gate -j 1 good.toml large.toml broken.toml", ""),
+            ("gate -j 1 good.toml open.toml broken.toml", ""),
             ("gate empty", ""),
             ("gate", ""),
             ("gate designs --sarif no/x", ""),
         ],
-        3: [("gate -j 1 good.toml large.toml", "")],
+        3: [("gate -j 1 good.toml open.toml", "")],
         4: [("gate false.toml good.toml broken.toml", THRESHOLD)],
         130: [("gate good.toml", INTERRUPT.format("gate.discovery", "find_designs"))],
     },
@@ -235,7 +237,7 @@ def test_the_status(folder: Path, run, command: str, status: int, call: str, cod
     assert done.returncode == status, done.stderr
     assert call.split()[0] == command
     assert "Traceback" not in done.stderr
-    on_standard_output = command in ("gate", "selftest") or (command == "check" and status in (1, 3))
+    on_standard_output = command in ("gate", "selftest") or (command in ("check", "prove") and status in (1, 3))
     if status in (2, 3, 4) and not on_standard_output:
         assert done.stdout == ""
         assert done.stderr.startswith(("verify-design: ", "Usage: "))

@@ -19,7 +19,11 @@ Verify = Callable[..., CompletedProcess[str]]
 Gate = Callable[..., CompletedProcess[str]]
 GOOD = 'name = "{}"\nalpha = 0.9\nmu = 0.2\n[graph]\nfamily = "complete"\nagents = 4\n'
 FALSE = 'name = "{}"\nalpha = 0.9\n mu = 1\n[graph]\nfamily = "directed-cycle"\nagents = 5\n'
-LARGE = 'name = "{}"\nalpha = 0.9\nmu = 0.1\n[graph]\nfamily = "cycle"\nagents = 201\n'
+# beta < 2^alpha - 1 < sigma of a digraph that is not symmetric: the bounds tell nothing of eqL3.
+LARGE = (
+    'name = "{}"\nalpha = 0.99985\nmu = 0.5\n[graph]\nfamily = "directed-cycle"\nagents = 201\n'
+    '[gate]\nrequire = ["control-norm-bound"]\n'
+)
 BROKEN = 'name = "{}"\nalpha = 2\n'
 
 
@@ -97,7 +101,7 @@ def test_no_design_is_status_2_even_when_quiet(gate: Gate, tmp_path: Path) -> No
 
 def test_undecided_never_passes(gate: Gate, tmp_path: Path) -> None:
     near = GOOD.replace("mu = 0.2", "mu = 0.1\nx0 = [1, 1, 1, 1]")
-    run = gate(write(tmp_path, a=LARGE, b=near), "--require", "gain-bound")
+    run = gate(write(tmp_path, a=LARGE, b=near), "--require", "control-norm-bound")
     assert (run.returncode, words(run)) == (3, ["undecided", "pass", "2"])
 
 

@@ -96,8 +96,10 @@ def test_graphs_to_switch_among(tmp_path: Path) -> None:
 
 def test_too_many_agents_are_not_supported(tmp_path: Path) -> None:
     (tmp_path / "a.edgelist").write_text("\n".join(f"{i} {i % 10001 + 1}" for i in range(1, 10002)))
-    with pytest.raises(DesignError, match=r"graph\.file: 10001 agents, more than 10000, are not supported yet"):
-        read_design(design(tmp_path, DESIGN.format("a.edgelist")))
+    text = 'alpha = 0.9\nmu = 0.1\n[graph]\nfile = "a.edgelist"\n'
+    with pytest.raises(DesignError, match=r"graph: 10001 agents, more than 10000, are not supported yet here"):
+        read_design(design(tmp_path, text))
+    assert read_named(design(tmp_path, text)).graph.edge_count == 10001
 
 
 @pytest.mark.parametrize("module", ["numpy", "scipy.io", "networkx", "defusedxml"])

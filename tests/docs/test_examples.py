@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from fomas_verify.design import SwitchedDesign, read_named
-from fomas_verify.prover import prove
+from fomas_verify.design import LargeDesign, SwitchedDesign, read_named
+from fomas_verify.prover import prove, prove_large
 
 pytestmark = pytest.mark.slow
 
@@ -21,6 +21,7 @@ SAYS = {
     "path4": (["memory-inequality"], ["gain-bound", "average-consensus"]),
     "repaired": (["repaired-condition", "control-norm-bound"], ["beta-contraction"]),
     "ring10": (["memory-inequality", "average-consensus"], []),
+    "swarm": (["gain-bound", "average-consensus"], ["memory-inequality", "control-norm-bound"]),
     "unbalanced": (["gain-bound", "perron-eigenvalues"], ["graph-assumption"]),
 }
 NAMES = sorted(path.stem for path in EXAMPLES.glob("*.toml"))
@@ -33,7 +34,7 @@ def test_an_example_is_what_it_says(name: str) -> None:
         done = start("prove", f"examples/{name}.toml")
         assert (done.returncode, "All 3 required claims are proved." in done.stdout) == (0, True)
         return
-    proof = prove(design)
+    proof = prove_large(design) if isinstance(design, LargeDesign) else prove(design)
     verdicts = {name: decision.verdict.value for name, decision in proof.decisions.items()}
     proved, refuted = SAYS[name]
     assert {verdicts[x] for x in proved} == {"proved"}

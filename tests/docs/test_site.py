@@ -68,6 +68,14 @@ def test_no_page_loads_anything_from_elsewhere(site: Path) -> None:
     ] == []
 
 
+def test_every_listing_keeps_to_the_width_of_the_page(site: Path) -> None:
+    """The theme lets `pre > code` wrap or scroll; a bare `pre` would make the whole page wider than a phone."""
+    pages = {str(page): page.read_text("utf-8") for page in site.rglob("*.html")}
+    assert sum(html.count("<pre") for html in pages.values()) > 100
+    bare = re.compile(r"<pre[^>]*>(?!\s*(<span></span>)?<code)")
+    assert [page for page, html in pages.items() if bare.search(html)] == []
+
+
 @pytest.mark.parametrize(
     "html",
     [

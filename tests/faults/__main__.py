@@ -17,9 +17,10 @@ def main(arguments: list[str]) -> int:
     parser = argparse.ArgumentParser(prog="python -m tests.faults", description=__doc__)
     parser.add_argument("--kills", type=int, default=100)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--forked", type=float, default=0.95, help="share of forks; the others are new interpreters")
     given = parser.parse_args(arguments)
     told, figures = 0, Figures()
-    for figures in campaign(given.kills, given.seed):
+    for figures in campaign(given.kills, given.seed, forked=given.forked):
         for failure in figures.failures[told:]:
             print(f"  {failure}", flush=True)
         told = len(figures.failures)

@@ -10,7 +10,6 @@ import os
 import re
 import shutil
 import signal
-import subprocess
 import tempfile
 import time
 from collections import Counter
@@ -20,7 +19,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from random import Random
 
-from .commands import COMMANDS, NEW, OLD, Command, Files, call, environment, found, lay, run
+from .commands import COMMANDS, NEW, OLD, Command, Files, found, lay
+from .processes import Run, run_afresh, run_forked, start_afresh, start_forked
 
 TEMPORARY = re.compile(r"(.*/)?\.[^/]{1,40}\.[0-9a-f]{16}\.tmp")
 _LOCK = "rows/_lock"
@@ -51,20 +51,20 @@ class Figures:
         return f"{self.kills} kills ({states}), {len(self.failures)} failures"
 
 
-def prepare(command: Command, folder: Path) -> Prepared:
+def prepare(command: Command, folder: Path, end: Run = run_afresh) -> Prepared:
     """Run a command on the old inputs, then on the new ones over what that left, twice: the bytes must be the same."""
     lay(OLD, folder)
     if command.over_old:
-        _must_work(command, folder)
+        _must_work(command, folder, end)
     lay(NEW, folder)
     before = found(folder)
     began = time.monotonic()
-    status = _must_work(command, folder)
+    status = _must_work(command, folder, end)
     seconds = time.monotonic() - began
     after = found(folder)
     again = folder.with_name(f"{folder.name}-again")
     lay(before, again)
-    _must_work(command, again)
+    _must_work(command, again, end)
     if after != found(again):
         raise AssertionError(f"{command.name}: two runs differ: {_differing(after, found(again))}")
     if not set(after) - set(NEW) or (command.over_old and before == after):
@@ -72,43 +72,44 @@ def prepare(command: Command, folder: Path) -> Prepared:
     return Prepared(command, before, after, status, seconds)
 
 
-def _must_work(command: Command, folder: Path) -> int:
-    ended = run(command.arguments, folder)
-    if ended.returncode not in (0, 1):
-        raise AssertionError(f"{command.name}: status {ended.returncode}: {ended.stderr.decode()}")
-    return ended.returncode
+def _must_work(command: Command, folder: Path, end: Run) -> int:
+    status, errors = end(command, folder)
+    if status not in (0, 1):
+        raise AssertionError(f"{command.name}: status {status}: {errors}")
+    return status
 
 
-def campaign(kills: int, seed: int, commands: list[Command] = COMMANDS) -> Iterator[Figures]:
-    """Kill so many times, and tell after each what came of all so far."""
+def campaign(kills: int, seed: int, commands: list[Command] = COMMANDS, forked: float = 0) -> Iterator[Figures]:
+    """Kill so many times, and tell after each what came of all so far; `forked`: which share is forked."""
     random, figures = Random(f"kills {seed}"), Figures()
     with tempfile.TemporaryDirectory(prefix="faults-") as room:
         ready: dict[str, Prepared] = {}
         while figures.kills < kills:
             (command,) = random.choices(commands, [command.weight for command in commands])
             if command.name not in ready:
-                ready[command.name] = prepare(command, Path(room) / f"prepared-{len(ready)}")
+                place = Path(room) / f"prepared-{len(ready)}"
+                ready[command.name] = prepare(command, place, run_forked if forked else run_afresh)
             folder = Path(room) / f"kill-{figures.kills}"
-            _one(ready[command.name], folder, random, figures)
+            _one(ready[command.name], folder, random, figures, forked=random.random() < forked)
             shutil.rmtree(folder)
             figures.kills += 1
             yield figures
 
 
-def _one(prepared: Prepared, folder: Path, random: Random, figures: Figures) -> None:
+def _one(prepared: Prepared, folder: Path, random: Random, figures: Figures, *, forked: bool) -> None:
     """Kill once, or twice in a row, look at what is left, and run to the end."""
     lay(prepared.before, folder)
     where = f"kill {figures.kills} ({prepared.command.name})"
     leftovers: set[str] = set()
     for _ in range(random.choice((1, 1, 1, 2))):
-        _kill(prepared, folder, random)
+        _kill(prepared, folder, random, (start_forked if forked else start_afresh)(prepared.command, folder))
         left = found(folder)
         leftovers |= set(filter(TEMPORARY.fullmatch, left))
         figures.during[_state(left, prepared)] += 1
         figures.failures += [f"{where}: {fault}" for fault in faults(left, prepared)]
-    ended = run(prepared.command.arguments, folder)
-    if ended.returncode != prepared.status or b"Traceback" in ended.stderr:
-        figures.failures.append(f"{where}: the next run: status {ended.returncode}: {ended.stderr.decode()!r}")
+    status, errors = (run_forked if forked else run_afresh)(prepared.command, folder)
+    if status != prepared.status or "Traceback" in errors:
+        figures.failures.append(f"{where}: the next run: status {status}: {errors!r}")
     if (last := found(folder)) != prepared.after:
         figures.failures.append(f"{where}: after the next run: {_differing(last, prepared.after)}")
 
@@ -133,33 +134,23 @@ def _state(left: Files, prepared: Prepared) -> str:
     return "between outputs"
 
 
-def _kill(prepared: Prepared, folder: Path, random: Random) -> None:
-    """Start the command, kill it, alone or with its children, and wait until all of them are gone."""
-    process = subprocess.Popen(
-        call(prepared.command.arguments),
-        cwd=folder,
-        env=environment(TMPDIR=str(folder.parent)),
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-        start_new_session=True,
-    )
+def _kill(prepared: Prepared, folder: Path, random: Random, pid: int) -> None:
+    """Kill a process, alone or with its children, and wait until it is gone."""
     if random.random() < 0.5:
         time.sleep(random.uniform(0, 1.05 * prepared.seconds))
     else:
-        _until_something_is_written(process, folder, set(prepared.before))
+        _until_something_is_written(pid, folder, set(prepared.before))
         time.sleep(random.choice((0, 0, random.uniform(0, 0.002), random.uniform(0, 0.02))))
     if random.random() < 0.5:
-        process.kill()
-        process.wait()
+        os.kill(pid, signal.SIGKILL)
     with suppress(ProcessLookupError):
-        os.killpg(process.pid, signal.SIGKILL)
-    process.wait()
+        os.killpg(pid, signal.SIGKILL)
+    os.waitpid(pid, 0)
 
 
-def _until_something_is_written(process: subprocess.Popen[bytes], folder: Path, before: set[str]) -> None:
+def _until_something_is_written(pid: int, folder: Path, before: set[str]) -> None:
     """Wait for a file that was not there, or for the end."""
-    while process.poll() is None:
+    while os.waitid(os.P_PID, pid, os.WEXITED | os.WNOHANG | os.WNOWAIT) is None:
         for parent, _, names in os.walk(folder):
             inside = os.path.relpath(parent, folder)
             if any(os.path.normpath(f"{inside}/{name}") not in before | {_LOCK} for name in names):

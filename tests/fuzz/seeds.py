@@ -10,7 +10,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 _SEEDS = {
     "design": ("examples/*.toml", "tests/corpus/malformed/designs/*.toml", "tests/corpus/malformed/designs/*.json"),
-    "certificate": ("tests/corpus/*/certificates/*.json", "reports/*/certificate.json"),
+    "certificate": ("tests/corpus/*/certificates/*.json", "tests/corpus/*/large/*.json", "reports/*/certificate.json"),
     "grid": ("examples/sweeps/grid.toml",),
 }
 LARGEST_SEED = 40_000

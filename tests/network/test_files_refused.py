@@ -35,6 +35,8 @@ REFUSED = {
     ),
     "a.graphml Matrix Market": (COORDINATE + "2 2 1\n1 2 1\n", "expected a GraphML file, got a Matrix Market file"),
     "a.edgelist Matrix Market": (COORDINATE + "2 2 1\n1 2 1\n", "expected an edge list, got a Matrix Market file"),
+    "a.mat text": ("hello" * 100, "expected a MATLAB file, got something else: 'no mark of a MATLAB file'"),
+    "a.mat CSV": ("0,1\n1,0\n", "expected a MATLAB file, got something else"),
     "a.mat empty": ("", "expected a graph, got an empty file"),
     "a.csv blank": ("\n \n", "expected a matrix of comma-separated numbers, 2 x 2 at least, got something else"),
     "a.edgelist comment": ("# nothing\n", "expected an edge list with at least one edge, got something else"),

@@ -62,7 +62,12 @@ def must_be_sound(path: Path) -> None:
 
 
 def _order(header: bytes) -> str:
-    """The order of bytes, as scipy tells it; empty for version 4, whose first bytes are no text, and for 7.3."""
+    """The order of bytes; empty for version 4, whose first bytes are no text, and for 7.3.
+
+    Raises `ValueError` for text without the mark of a MATLAB file, which is none: its sizes would mean nothing.
+    """
+    if 0 not in header[:4] and header[126:] not in (b"IM", b"MI"):
+        raise ValueError("no mark of a MATLAB file")
     order = "<" if header[126:] == b"IM" else ">"
     newer = header[124:126] == (b"\x00\x02" if order == "<" else b"\x02\x00")
     return "" if 0 in header[:4] or newer else order

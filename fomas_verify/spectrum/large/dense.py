@@ -1,7 +1,7 @@
 """What a dense Cholesky factor shows, by an a-priori bound: for matrices whose sparse factor fills in.
 
 If the factorisation of a symmetric A runs to its end in doubles, A has no eigenvalue below
-``-gamma_(N+1) / (1 - gamma_(N+1)) trace A``. Source: S. M. Rump, *Verification of positive
+``-gamma_m / (1 - gamma_m) trace A``, m = N + 1 and a few more. Source: S. M. Rump, *Verification of positive
 definiteness*, BIT 46 (2006); docs/theory.md, section 14.
 """
 
@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 
     from fomas_verify.spectrum.large.factor import Solve
 
+_MORE = 10
+"""1 for the bound, and for programs that multiply by a rounded reciprocal of the diagonal where others divide."""
+
 
 @dataclass(frozen=True)
 class DenseFactors:
@@ -29,7 +32,7 @@ class DenseFactors:
         """Twice the a-priori bound, nearly."""
         n = near.matrix.shape[0]
         trace = float(near.matrix.diagonal().sum())
-        return 2 * gamma(n + 1) * (trace + 2 * near.largest)
+        return 2 * gamma(n + _MORE) * (trace + 2 * near.largest)
 
     def solve_near_zero(self, near: Near, shift: float) -> Solve:
         """Apply the inverse of ``A + shift I`` with the vector 1 moved away from 0, as floats do.
@@ -70,7 +73,7 @@ class DenseFactors:
         _, info = _cholesky(full)
         if info or not np.isfinite(trace):
             return None
-        n, share = full.shape[0], gamma(full.shape[0] + 1)
+        n, share = full.shape[0], gamma(full.shape[0] + _MORE)
         most = int(np.diff(near.matrix.indptr).max())
         # Each stored entry was added to the lift, and the diagonal to the shift, with one rounding each.
         rows = float(abs(near.matrix).sum(axis=0).max())

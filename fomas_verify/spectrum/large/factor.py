@@ -1,4 +1,4 @@
-"""What a sparse factor shows of the eigenvalues of a symmetric matrix; the program that made it is not believed.
+"""What a sparse factor shows of the eigenvalues of a symmetric matrix; what made it is not believed.
 
 ``A + E = U diag(d) U^T``, U unit lower triangular in the order of elimination. Source: docs/theory.md, section 14.
 """
@@ -9,6 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from fomas_verify.spectrum.large.elimination import eliminated
 from fomas_verify.spectrum.large.matrices import Near
 from fomas_verify.spectrum.large.ordering import Order
 from fomas_verify.spectrum.large.residual import residual_norm
@@ -36,8 +37,10 @@ class SparseFactors:
 
     def solve_near_zero(self, near: Near, shift: float) -> Solve:
         """Apply the inverse of ``A + shift I``, as floats do. Raises RuntimeError where that is singular."""
+        from scipy.sparse.linalg import splu
+
         rows = self.order.rows
-        factor = _factor(self._moved(near, shift))
+        factor = splu(self._moved(near, shift), permc_spec="NATURAL", options={"SymmetricMode": True})
 
         def solve(x: NDArray[Any]) -> NDArray[Any]:
             import numpy as np
@@ -75,25 +78,9 @@ class SparseFactors:
         import numpy as np
 
         moved = self._moved(near, shift, sign)
-        try:
-            factor = _factor(moved)
-        except RuntimeError:
+        found = eliminated(moved, self.order.fronts, most)
+        if found is None or (found[1] == 0).any() or int((found[1] < 0).sum()) > most:
             return None
-        n, place = moved.shape[0], factor.perm_r
-        if not np.array_equal(place, factor.perm_c) or sorted(place.tolist()) != list(range(n)):
-            return None
-        lower, pivots = factor.L, factor.U.diagonal()
-        del factor
-        if (pivots == 0).any() or int((pivots < 0).sum()) > most:
-            return None
-        rows = np.argsort(place)
-        error = residual_norm(moved[rows][:, rows].tocsc(), lower, pivots)
+        error = residual_norm(moved, *found, self.order.fronts)
         # The shift was added to the diagonal with one rounding.
         return (error + near.error + 2 * U * (near.largest + abs(shift))) * SLACK if np.isfinite(error) else None
-
-
-def _factor(matrix: Any) -> Any:
-    """Pivots from the diagonal, in the order given, so that the upper factor is the lower one times the pivots."""
-    from scipy.sparse.linalg import splu
-
-    return splu(matrix, permc_spec="NATURAL", diag_pivot_thresh=0.0, options={"SymmetricMode": True})

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-_SMALL_TREE = 64
+_SMALL_TREE = 32
+_CHAIN, _NONE = -2, -3
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,21 +31,15 @@ class Fronts:
     of_column: NDArray[Any]
 
 
-def fronts(lower: Any) -> Fronts:
-    """Ranges for a unit lower triangular csc factor with sorted columns.
+def fronts(parents: list[int], counts: list[int]) -> Fronts:
+    """Ranges for an elimination tree (each column's parent, -1 for a root) and the entries of each factor column.
 
-    Small subtrees of its elimination tree, several where they share a parent; else chains of columns, each of which has
-    the rows of the one before, less one.
+    Small subtrees, several where they share a parent; else chains of columns, each of which has the rows of the one
+    before, less one.
     """
     import numpy as np
 
-    n = lower.shape[0]
-    counts = np.diff(lower.indptr)
-    parents = np.full(n, n, dtype=np.int64)
-    inner = counts > 1
-    parents[inner] = lower.indices[lower.indptr[:-1][inner] + 1]
-    sizes = _subtree_sizes(parents.tolist())
-    edges = _edges(parents.tolist(), sizes, counts.tolist())
+    edges = _edges(parents, _subtree_sizes(parents), counts)
     lengths = np.diff(edges)
     return Fronts(edges, np.repeat(np.arange(len(lengths)), lengths))
 
@@ -52,7 +47,7 @@ def fronts(lower: Any) -> Fronts:
 def _subtree_sizes(parents: list[int]) -> list[int]:
     sizes = [1] * len(parents)
     for j, parent in enumerate(parents):
-        if parent < len(parents):
+        if parent >= 0:
             sizes[parent] += sizes[j]
     return sizes
 
@@ -60,18 +55,19 @@ def _subtree_sizes(parents: list[int]) -> list[int]:
 def _edges(parents: list[int], sizes: list[int], counts: list[int]) -> list[int]:
     """Where a range begins, and N. In a postorder the subtree of j is the last `sizes[j]` columns up to j."""
     n = len(parents)
-    edges, start, above = [0], 0, -1
+    edges, start, above = [0], 0, _NONE
     j = 0
     while j < n:
-        while parents[j] < n and parents[j] > j and sizes[parents[j]] <= _SMALL_TREE:
+        while parents[j] > j and sizes[parents[j]] <= _SMALL_TREE:
             j = parents[j]
         small = sizes[j] <= _SMALL_TREE
-        if small and above == parents[j] and j + 1 - start <= _SMALL_TREE:
-            edges[-1] = j + 1
-        else:
-            chained = not small and above == -2 and counts[j] == counts[j - 1] - 1 and parents[j - 1] == j
-            start = start if chained else edges[-1]
-            edges[-1 if chained else len(edges) :] = [j + 1]
-        above = parents[j] if small else -2
+        joined = (small and above == parents[j] and j + 1 - start <= _SMALL_TREE) or (
+            not small and above == _CHAIN and counts[j] == counts[j - 1] - 1 and parents[j - 1] == j
+        )
+        if not joined:
+            start = edges[-1]
+            edges.append(start)
+        edges[-1] = j + 1
+        above = parents[j] if small else _CHAIN
         j += 1
     return edges

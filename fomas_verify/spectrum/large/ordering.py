@@ -9,16 +9,19 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from fomas_verify.spectrum.large.fronts import Fronts, fronts
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
 @dataclass(frozen=True, eq=False)
 class Order:
-    """Rows in the order of elimination, and the number of entries in each column of the factor, diagonal included."""
+    """Rows in the order of elimination, the entries of each column of the factor, and the columns taken together."""
 
     rows: NDArray[Any]
     counts: NDArray[Any]
+    fronts: Fronts
 
     @property
     def entries(self) -> int:
@@ -39,7 +42,8 @@ def elimination_order(matrix: Any) -> Order:
     parents = _tree(matrix, rows)
     rows = rows[_postorder(parents)]
     parents = _tree(matrix, rows)
-    return Order(rows, np.array(_counts(matrix, rows, parents)))
+    counts = _counts(matrix, rows, parents)
+    return Order(rows, np.array(counts), fronts(parents, counts))
 
 
 def _minimum_degree(matrix: Any) -> NDArray[Any]:

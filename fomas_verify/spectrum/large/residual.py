@@ -3,7 +3,7 @@
 The product is formed from dense ones: that of a range of columns is added to what its children in the elimination tree
 left for later columns (as in the multifrontal method), so that few roundings follow each other.
 
-Notation: ``E = A - U diag(d) U^T``, U unit lower triangular; T >= abs E entry by entry, T symmetric. For any x > 0
+Notation: ``E = A - U diag(d) U^T``, U unit lower triangular. For T >= abs E entry by entry, T symmetric, and any x > 0,
 norm E is at most the largest ``(T x)_i / x_i`` (Collatz). Source: docs/theory.md, section 14.
 """
 
@@ -11,9 +11,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from itertools import pairwise
+from math import sqrt
 from typing import TYPE_CHECKING, Any
 
-from fomas_verify.spectrum.large.fronts import Fronts, fronts
+from fomas_verify.spectrum.large.fronts import Fronts
 from fomas_verify.spectrum.large.rounding import LARGEST, SLACK, UNDERFLOW, U, gammas
 
 if TYPE_CHECKING:
@@ -25,7 +26,7 @@ _TERMS = 48
 _STEPS, _LEAST = 4, 2.0**-6
 
 
-def residual_norm(matrix: Any, lower: Any, pivots: NDArray[Any]) -> float:
+def residual_norm(matrix: Any, lower: Any, pivots: NDArray[Any], ranges: Fronts) -> float:
     """A bound of the 2-norm of E; infinity where U is not unit lower triangular, or a number is out of range. Rigorous.
 
     Parameters
@@ -33,22 +34,29 @@ def residual_norm(matrix: Any, lower: Any, pivots: NDArray[Any]) -> float:
     matrix : csc, exactly symmetric, sorted
     lower : csc, U
     pivots : d, shape (N,)
+    ranges : of columns; any give a true bound
     """
-    from scipy.sparse import csc_array, triu
+    import numpy as np
+    from scipy.sparse import csc_array
 
-    lower = csc_array(lower)
+    n = len(pivots)
     lower.sort_indices()
     # No NaN is <= anything.
     in_range = all(bool((abs(part) <= LARGEST).all()) for part in (lower.data, pivots, matrix.data))
-    if not in_range or (lower.diagonal() != 1).any() or triu(lower, k=1).nnz:
+    firsts = lower.indptr[:-1]
+    # Each column is to begin with its diagonal entry, which is 1.
+    if not in_range or (np.diff(lower.indptr) == 0).any() or (lower.data[firsts] != 1).any():
         return float("inf")
-    sizes, heights = abs(lower), abs(pivots)
-    x = _weights(sizes, heights)
-    product = _Product(matrix, lower, pivots, x, fronts(lower))
+    if not np.array_equal(lower.indices[firsts], np.arange(n)):
+        return float("inf")
+    product = _Product(matrix, lower, pivots, ranges)
     product.form()
-    share = gammas(product.roundings())
-    hidden = sizes @ (share * heights * (sizes.T @ x)) + 4 * U * (abs(matrix) @ x)
-    return float(((hidden + product.sums) / x).max()) * SLACK**2 + UNDERFLOW
+    sizes, heights = csc_array((abs(lower.data), lower.indices, lower.indptr), shape=(n, n)), abs(pivots)
+    x = _weights(sizes, heights)
+    hidden = sizes @ (gammas(product.roundings()) * heights * (sizes.T @ x)) + 4 * U * (abs(matrix) @ x)
+    # What is seen is small everywhere, or large in a few full rows: the row sums or the Frobenius norm are near then.
+    seen = min(float(product.sums.max()), sqrt(product.squares))
+    return (float((hidden / x).max()) + seen) * SLACK**2 + UNDERFLOW
 
 
 def _weights(sizes: Any, heights: NDArray[Any]) -> NDArray[Any]:
@@ -68,7 +76,8 @@ class _Product:
 
     Attributes
     ----------
-    sums : ``abs E x``, E as computed
+    sums : of the absolute values of each row of E, as computed
+    squares : the sum of the squares of its entries
     left : what each range's children leave: rows, and a symmetric matrix on them
     added : for each range, the matrices that are added in it
     parents : for each range, that to which it leaves something, or -1
@@ -77,9 +86,9 @@ class _Product:
     matrix: Any
     lower: Any
     pivots: NDArray[Any]
-    x: NDArray[Any]
     ranges: Fronts
     sums: Any = None
+    squares: float = 0.0
     left: dict[int, list[tuple[Any, Any]]] = field(default_factory=dict)
     added: list[int] = field(default_factory=list)
     parents: list[int] = field(default_factory=list)
@@ -88,7 +97,7 @@ class _Product:
         """Go through all ranges."""
         import numpy as np
 
-        self.sums = np.zeros(len(self.x))
+        self.sums = np.zeros(len(self.pivots))
         edges = self.ranges.edges
         for start, end in pairwise(edges):
             self._front(start, end)
@@ -132,9 +141,10 @@ class _Product:
         import numpy as np
 
         formed[np.searchsorted(rows, given[0]), given[1]] -= given[2]
-        apart, width = abs(formed), end - start
-        self.sums[rows] += apart @ self.x[start:end]
-        self.sums[start:end] += apart[width:].T @ self.x[rows[width:]]
+        apart = abs(formed)
+        self.sums[rows] += apart.sum(axis=1)
+        self.sums[start:end] += apart[end - start :].sum(axis=0)
+        self.squares += float((apart**2).sum() + (apart[end - start :] ** 2).sum())
 
     def _columns(self, whole: Any, start: int, end: int) -> tuple[Any, Any, Any]:
         """The rows from `start` on, the columns counted from `start`, and the values of the entries of a range."""

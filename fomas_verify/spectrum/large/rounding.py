@@ -15,8 +15,10 @@ U = 2.0**-53
 SLACK = 1 + 2.0**-20
 """Covers the rounding in a bound: sums and products of nonnegative doubles, fewer than 2^30 one after another."""
 
-UNDERFLOW = 2.0**-800
-"""More than all that underflow can change in a row where no number is beyond `LARGEST` and no row has 2^40 terms."""
+UNDERFLOW = 2.0**-400
+"""More than all that underflow can change in a row, or in a norm by way of squares, where no number is beyond `LARGEST`
+and fewer than 2^80 numbers are added.
+"""
 
 LARGEST = 2.0**100
 

@@ -9,7 +9,7 @@ from fomas_verify.spectrum.large.factor import BYTES_AN_ENTRY, Solve, SparseFact
 from fomas_verify.spectrum.large.matrices import Near
 from fomas_verify.spectrum.large.ordering import elimination_order
 
-_SPARSE_COST, _DENSE_COST = 10e-9, 0.05e-9
+_SPARSE_COST, _DENSE_COST = 1.5e-9, 0.06e-9
 """Seconds, about, that one product takes in a sparse factor and its residual, and in a dense factor."""
 
 

@@ -1,5 +1,7 @@
 """The size of a factor is known before it is formed."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from scipy.sparse import csc_array, eye_array, random_array
@@ -35,6 +37,10 @@ def test_the_counts_are_those_of_the_elimination(seed: int, fails: bool, monkeyp
     assert sorted(order.rows.tolist()) == list(range(n))
     assert order.counts.tolist() == filled(matrix.toarray()[np.ix_(order.rows, order.rows)] != 0)
     assert order.entries == order.counts.sum()
+    edges = order.fronts.edges
+    assert (edges[0], edges[-1]) == (0, n)
+    assert order.fronts.of_column.tolist() == [s for s, (a, b) in enumerate(pairwise(edges)) for _ in range(a, b)]
+    assert all(a < b for a, b in pairwise(edges))
 
 
 def test_a_root_is_found_through_a_long_path() -> None:
