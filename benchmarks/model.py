@@ -10,7 +10,7 @@ from benchmarks.topics import Method
 SECONDS, MEMORY = 60.0, 8192.0
 """The budget within which a method is called usable: seconds, and MB."""
 
-LEAST_SECONDS, LEAST_MEMORY = 0.02, 20.0
+LEAST_SECONDS, LEAST_MEMORY = 0.02, 5.0
 """What is smaller is start-up and says nothing of how a method grows."""
 
 
@@ -62,9 +62,14 @@ class Series:
         return fit(long if len(long) > 1 else [(p.size, max(p.seconds, 1e-6)) for p in self.points[-2:]])
 
     @property
+    def grows(self) -> bool:
+        """Whether its memory does."""
+        return max(p.memory for p in self.points) - min(p.memory for p in self.points) >= LEAST_MEMORY
+
+    @property
     def growth(self) -> Power | None:
-        """The model of the memory beyond that of its smallest size; None where it does not grow."""
-        least = min((p.memory for p in self.points), default=0.0)
+        """The model of the memory beyond that of its smallest size; None where fewer than two sizes need more."""
+        least = min(p.memory for p in self.points)
         return fit([(p.size, p.memory - least) for p in self.points if p.memory - least >= LEAST_MEMORY])
 
     @property
@@ -80,3 +85,10 @@ class Series:
     def at(self, size: int) -> float | None:
         """Seconds at a size, where it was measured."""
         return next((p.seconds for p in self.points if p.size == size), None)
+
+    def between(self, size: int) -> float | None:
+        """Seconds by the power law through the next smaller and the next larger size."""
+        pairs = [(p.size, max(p.seconds, 1e-6)) for p in self.points]
+        below, above = [x for x in pairs if x[0] < size], [x for x in pairs if x[0] > size]
+        line = fit([max(below), min(above)]) if below and above else None
+        return None if line is None else line.at(size)

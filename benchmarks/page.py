@@ -77,16 +77,18 @@ def _topic(topic: Topic, series: Sequence[Series]) -> Iterator[str]:
 
 
 def _ratio(one: Series, ours: Series, size: int) -> str:
-    """How many times our time; by the model, and then marked, where ours was measured at other sizes only."""
-    if one is ours:
-        return "1"
+    """How many times our time; marked where ours was measured at smaller and larger sizes only."""
     theirs, own = one.at(size), ours.at(size)
-    if theirs is None:
-        return ""
+    if one is ours or theirs is None:
+        return "1" if one is ours else ""
     if own is not None:
-        return f"{theirs / own:.3g}"
-    smallest = min(p.size for p in ours.points)
-    return "" if ours.time is None or size < smallest else f"about {theirs / ours.time.at(size):.2g}"
+        return _times(theirs / own)
+    near = ours.between(size)
+    return "" if near is None else f"about {_times(theirs / near, 2)}"
+
+
+def _times(x: float, digits: int = 3) -> str:
+    return f"{x:,.0f}" if x >= 100 else f"{x:.{digits}g}"
 
 
 def _models(topics: Sequence[tuple[Topic, Sequence[Series]]]) -> Iterator[str]:
@@ -101,8 +103,14 @@ def _models(topics: Sequence[tuple[Topic, Sequence[Series]]]) -> Iterator[str]:
         for one in series:
             usable = one.usable
             end = "" if usable is None else _end(*usable, one.points[-1].size, topic.size)
-            rows.append((topic.title, one.method.words, law(one.time, "s"), law(one.growth, "MB"), end))
+            rows.append((topic.title, one.method.words, law(one.time, "s"), _growth(one), end))
     yield from table(("topic", "method", "time", "memory beyond start-up", "usable up to"), rows)
+
+
+def _growth(one: Series) -> str:
+    if not one.grows:
+        return "flat"
+    return "grows at the largest size only" if one.growth is None else law(one.growth, "MB")
 
 
 def _end(size: float, what: str, largest: int, unit: str) -> str:
@@ -154,7 +162,7 @@ def mb(x: float) -> str:
 
 
 def law(power: Power | None, unit: str) -> str:
-    return "flat" if power is None else f"{power.factor:.2g} {unit} n^{power.exponent:.2f}"
+    return "" if power is None else f"{power.factor:.2g} {unit} n^{power.exponent:.2f}"
 
 
 def rounded(x: float) -> str:

@@ -6,7 +6,7 @@ import pytest
 
 from benchmarks.measure import Cost
 from benchmarks.model import SECONDS, Point, Power, Series, fit
-from benchmarks.page import Results, page, rounded
+from benchmarks.page import Results, _growth, page, rounded
 from benchmarks.topics import TOPICS, Method, Topic
 
 METHOD = Method("x", "some way", (1, 2))
@@ -59,6 +59,25 @@ def test_memory_ends_a_method_that_is_fast() -> None:
 
 def test_what_does_not_grow_never_ends() -> None:
     assert math.isinf(Power(2.0, 0.0).size_for(60.0))
+
+
+def test_between_two_sizes_the_law_of_both_holds() -> None:
+    found = series((10, 0.1, 50), (100, 0.1, 50), (1000, 10, 50))
+    assert found.between(300) == pytest.approx(0.1 * 3**2)
+    assert found.between(5) is None
+    assert found.between(2000) is None
+
+
+@pytest.mark.parametrize(
+    ("points", "words"),
+    [
+        (((1, 1, 50), (2, 2, 54)), "flat"),
+        (((1, 1, 50), (2, 2, 54), (4, 4, 90)), "grows at the largest size only"),
+        (((1, 1, 50), (2, 2, 60), (4, 4, 70)), "5 MB n^1.00"),
+    ],
+)
+def test_how_memory_grows(points: tuple[tuple[int, float, float], ...], words: str) -> None:
+    assert _growth(series(*points)) == words
 
 
 @pytest.mark.parametrize(("x", "text"), [(5.2, "5"), (61, "61"), (6149, "6,100"), (12_345_678, "12,000,000")])
