@@ -15,7 +15,7 @@ from fomas_verify.claims.registry import Claim
 from fomas_verify.claims.verdict import Decision, Verdict, undecided
 from fomas_verify.design import UncertainDesign
 from fomas_verify.enclosure.interval import Interval
-from fomas_verify.prover.members import BITS, alpha_of, halves, mu_over, refuting_member
+from fomas_verify.prover.members import BITS, alpha_of, halves, is_cut, mu_over, refuting_member
 from fomas_verify.spectrum.loop import Loop
 from fomas_verify.spectrum.samples import Box
 
@@ -47,7 +47,7 @@ def over_boxes(design: UncertainDesign, loop: Loop, claim: Claim) -> Decision:
             boxes += found
         elif cover.refuted is not None:
             return cover.refuted
-        elif cover.left == 0 or slab.is_exact:
+        elif cover.left == 0 or not is_cut(slab):
             return undecided(BITS, f"{most - cover.left} boxes of (alpha, mu) do not tell")
         else:
             slabs += reversed(halves(slab))

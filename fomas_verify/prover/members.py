@@ -18,6 +18,7 @@ from fomas_verify.design import Design, UncertainDesign
 from fomas_verify.enclosure.digits import decimal
 from fomas_verify.enclosure.interval import Interval, short_dyadic
 from fomas_verify.kernel.memory import one_step_weight_over
+from fomas_verify.spectrum.alpha_margins import may_be_written
 from fomas_verify.spectrum.loop import Loop
 
 BITS = 128
@@ -99,8 +100,13 @@ def _decided(claim: str, member: Design) -> Decision:
     return next(x for x in CLAIMS if claim == x.ID).decide(Loop(member, MOST_SAMPLES))
 
 
+def is_cut(slab: Interval) -> bool:
+    """Whether a slab has a middle that a certificate may hold."""
+    return not slab.is_exact and may_be_written(halves(slab)[0].upper)
+
+
 def _middle(slab: Interval) -> Fraction:
-    return slab.lower if slab.is_exact else halves(slab)[0].upper
+    return halves(slab)[0].upper if is_cut(slab) else slab.lower
 
 
 def _near(design: UncertainDesign, slab: Interval, mu: Interval) -> Design:

@@ -18,6 +18,7 @@ from fomas_verify.enclosure.norms import ball_identity, perron_matrix, plus_mult
 from fomas_verify.enclosure.real import square_root, working_precision
 from fomas_verify.exact.matrix import apply, norm_squared
 from fomas_verify.kernel.memory import resolvent_over
+from fomas_verify.spectrum.alpha_margins import may_be_written
 from fomas_verify.spectrum.loop import Loop
 from fomas_verify.spectrum.samples import Box
 from fomas_verify.spectrum.slabs import chords_of, contracts_over, mu_over
@@ -87,11 +88,17 @@ def neighbourhoods(loop: Loop, decision: Decision) -> dict[str, Neighbourhood]:
     room = max((times for key, times in ROOM.items() if key in decision.witness), default=Fraction(1))
     found = {name: _widest(line, shown, room) for name, line in lines.items()}
     return {
-        name: Neighbourhood((x.lower, x.upper), decision.verdict, witness)
+        name: Neighbourhood(_ends(x, alpha if name == "alpha" else None), decision.verdict, witness)
         for name, pair in found.items()
         if pair is not None
         for x, witness in [pair]
     }
+
+
+def _ends(x: Interval, alpha: Fraction | None) -> tuple[Fraction, Fraction]:
+    """As written: of orders only those that a certificate may hold, the design's own in place of others."""
+    lower, upper = (end if alpha is None or may_be_written(end) else alpha for end in (x.lower, x.upper))
+    return lower, upper
 
 
 def _shown(loop: Loop, decision: Decision) -> Shown:

@@ -84,11 +84,14 @@ def _typeset(engine: str, room: Path, seconds: float) -> Compilation:
         log = _text(room / "report.log")
         if run.returncode != 0 or not (room / "report.pdf").is_file():
             return Compilation(None, f"no PDF: {engine} failed: {_first_error(log)}", log)
+        made = _bytes(room / "report.pdf")
+        if not made.startswith(b"%PDF-") or b"%%EOF" not in made[-1024:]:  # such as a full disk leaves
+            return Compilation(None, f"no PDF: {engine} failed: its PDF is not whole", log)
         references = _bytes(room / "report.aux")
         if references == before or engine == "tectonic":
             break
         before = references
-    return Compilation((room / "report.pdf").read_bytes(), "", log)
+    return Compilation(made, "", log)
 
 
 def _environment() -> dict[str, str]:

@@ -16,6 +16,9 @@ FINE, FINEST, BEYOND = 26, 60, (1, 2, 4, 8, 16, 32, 64)
 """The ends of what is known are about 2^-26 of alpha apart, or 2^-60; where a slab does not tell, up to 65
 times that."""
 
+ALPHA_BELOW = 1 << 64
+"""Bound on numerator and denominator of an order in a certificate (format, section 2)."""
+
 MOST_STEPS, MOST_PARTS = 1 << 10, 3 << 9
 """Bounds on the parts tried on the way out, and on those of each side halved again: a reader may use 2^12."""
 
@@ -37,7 +40,14 @@ def alpha_margin(truth: Truth, alpha: Fraction) -> AlphaMargin | None:
         return None
     ends = [_reach(truth, alpha, end, here) for end in (Fraction(0), Fraction(1))]
     inner = [_seen_by_halving(truth, alpha, end, here) for end, _ in ends]
-    return AlphaMargin((inner[0], inner[1]), (ends[0][1], ends[1][1]))
+    beyond = [end if end is not None and may_be_written(end) else None for _, end in ends]
+    known = [end if may_be_written(end) else alpha for end in inner]
+    return AlphaMargin((known[0], known[1]), (beyond[0], beyond[1]))
+
+
+def may_be_written(alpha: Fraction) -> bool:
+    """Whether a certificate may hold this order: one at the edge of what is allowed has neighbours that it may not."""
+    return max(alpha.numerator, alpha.denominator) < ALPHA_BELOW
 
 
 def _reach(truth: Truth, start: Fraction, end: Fraction, here: bool) -> tuple[Fraction, Fraction | None]:

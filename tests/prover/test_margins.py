@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from fomas_verify.checker import check
 from fomas_verify.claims.verdict import Verdict
 from fomas_verify.design import design_from_mapping
 from fomas_verify.enclosure.reference import DisagreementError
@@ -149,3 +150,12 @@ def test_a_tie_has_no_neighbourhood() -> None:
     found = proof({"family": "path", "agents": 2}, alpha="1/2", mu="1")
     assert found.decisions["control-norm-bound"].verdict is Verdict.PROVED
     assert "mu" not in found.margins["control-norm-bound"].near
+
+
+@pytest.mark.parametrize("alpha", ["1e-19", f"1/{2**64 - 1}", f"{2**64 - 2}/{2**64 - 1}", "0.9999999999999999999"])
+@pytest.mark.parametrize("graph", [{"family": "complete", "agents": 3}, {"family": "directed-cycle", "agents": 3}])
+def test_an_order_at_the_edge_of_what_may_be_written(alpha: str, graph: dict[str, Any]) -> None:
+    """Its neighbours have longer denominators than a certificate may hold: the stretch ends at the order itself."""
+    certificate = prove(design_from_mapping({"alpha": alpha, "mu": "1/5", "graph": graph})).certificate()
+    assert "margins" in json.loads(certificate)["values"]
+    assert {outcome.status for outcome in check(certificate.encode()).outcomes} == {"accepted"}

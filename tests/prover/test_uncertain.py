@@ -9,6 +9,7 @@ import mpmath
 import numpy as np
 import pytest
 
+from fomas_verify.checker import check
 from fomas_verify.claims.verdict import Verdict
 from fomas_verify.design import UncertainDesign
 from fomas_verify.design.reading import any_from_mapping
@@ -162,3 +163,10 @@ def test_a_given_interval_of_mu_is_kept_exactly() -> None:
     proof = prove(alpha="0.9", mu=["0.1", "2/3"])
     assert proof.values["mu"].ends == (Fraction(1, 10), Fraction(2, 3))
     assert "mu = gamma h^alpha / Gamma(alpha+1)  [0.1, 2/3]" in uncertain_text(proof)
+
+
+@pytest.mark.parametrize("alpha", [["1e-19", "2e-19"], [f"1/{2**64 - 1}", f"2/{2**64 - 1}"]])
+def test_orders_at_the_edge_of_what_may_be_written(alpha: list[str]) -> None:
+    """Between them lie orders with longer denominators than a certificate may hold."""
+    proof = prove(alpha=alpha, mu=["0.2", "0.4"])
+    assert {outcome.status for outcome in check(proof.certificate().encode()).outcomes} == {"accepted"}
