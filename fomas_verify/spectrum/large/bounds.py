@@ -123,7 +123,9 @@ def _shown(near: Near, way: Way, value: float) -> float | None:
     for farther in _FARTHER:
         shown = way.second_at_least(near, value * (1 - farther) - way.expected_error(near))
         if shown is not None:
-            return min(shown - _ROOM * near.largest, value * (1 - _WIDTH))
+            # The eigenvalue is near `value` if a bound was shown there at once, and not known beyond `shown` otherwise.
+            known = value if farther == _NEAR else shown
+            return min(shown, known - _ROOM * near.largest, value * (1 - _WIDTH))
     return None
 
 
