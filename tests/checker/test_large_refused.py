@@ -225,6 +225,7 @@ def test_the_edge_list_lies_beside_the_certificate(tmp_path: Path) -> None:
         check(file.read_bytes(), opener=beside(file))
     (tmp_path / NAME).rmdir()
     (tmp_path / NAME).write_bytes(DATA)
+    assert check(file.read_bytes(), opener=beside(file)).exit_status == 0
     command = [sys.executable, "-I", "-S", str(Path(__file__).parents[2] / "fomas_verify" / "checker"), str(file)]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
