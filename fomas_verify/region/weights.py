@@ -31,6 +31,9 @@ ROOM = Fraction(1, 10**4)
 LOSS = Fraction(1, 10**4)
 """By how much rounding may raise sigma, and by how much more than equal weights it may be, before it is no answer."""
 
+FARTHEST = 1000
+"""Weights and sigma are at most 1; a solver's number beyond this one is nonsense."""
+
 MOST_AGENTS = 40
 ATTEMPTS = 2
 VECTOR_BITS = 40
@@ -137,7 +140,7 @@ def _rounded(
 ) -> BestWeights | None:
     """The proposal in decimals, where it is what it says; None where it is not."""
     numbers = [*proposal.weights.values(), proposal.sigma]
-    if not all(math.isfinite(x) for x in numbers) or set(proposal.weights) != {edge[:2] for edge in usable.edges}:
+    if not all(abs(x) <= FARTHEST for x in numbers) or set(proposal.weights) != {edge[:2] for edge in usable.edges}:
         return None
     bound = Fraction(proposal.sigma) + LOSS
     if before is not None and not (symmetric and len(usable.edges) < len(design.graph.edges)):
