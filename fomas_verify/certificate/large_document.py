@@ -58,7 +58,10 @@ def graph_entry(graph: LargeGraph, certificate: str) -> dict[str, Any]:
 
 
 def edge_list_name(certificate: str, digest: str) -> str:
-    """The name of the edge list beside a certificate's file: the same but for its ending, where that can be one."""
+    """The name of the edge list beside a certificate's file: that file's own and the digest, where that can be one.
+
+    No other edge list has it, so that none is ever replaced, and a former certificate keeps its own.
+    """
     stem = certificate.rpartition(".")[0] or certificate
-    name = f"{stem}{EDGES}"
+    name = f"{stem}-{digest[:16]}{EDGES}"
     return name if _NAME.fullmatch(name) and len(name) <= _LONGEST else f"network-{digest[:16]}{EDGES}"

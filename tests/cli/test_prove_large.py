@@ -35,6 +35,11 @@ def web(tmp_path: Path) -> Path:
     return tmp_path / "web.toml"
 
 
+def edge_list_of(certificate: Path) -> Path:
+    """The file beside a certificate that it names."""
+    return certificate.with_name(json.loads(certificate.read_text())["design"]["graph"]["file"])
+
+
 def test_a_family_is_proved_and_checked_with_no_file_beside(tmp_path: Path) -> None:
     (tmp_path / "a.toml").write_text(TORUS)
     assert main(["prove", str(tmp_path / "a.toml"), "-o", str(tmp_path / "a.json")]) == 1
@@ -49,7 +54,7 @@ def test_a_graph_file_is_proved_and_checked_with_its_edge_list(web: Path, capsys
     certificate = web.with_name("out.json")
     assert main(["prove", str(web), "-o", str(certificate), "--horizon", "20"]) in (0, 1)
     assert "(14) term by term at k = 0..20" in capsys.readouterr().out
-    assert certificate.with_name("out.edges").read_text().count("\n") == len(matrix().data)
+    assert edge_list_of(certificate).read_text().count("\n") == len(matrix().data)
     assert main(["check", str(certificate), "--design", str(web), "--numeric"]) == 0
     assert main(["check", str(certificate), "--design", str(web)]) == 3
     assert "--numeric" in capsys.readouterr().out
@@ -64,8 +69,20 @@ def test_the_same_graph_in_every_format_is_the_same_edge_list(web: Path) -> None
         design = web.with_name(f"{ending}.toml")
         design.write_text(web.read_text().replace("web.mtx", f"web.{ending}"))
         main(["prove", str(design), "-o", str(web.with_name(f"{ending}.json"))])
-    lists = {web.with_name(f"{ending}.edges").read_bytes() for ending in ("mtx", "npz", "edgelist")}
+    lists = {edge_list_of(web.with_name(f"{ending}.json")).read_bytes() for ending in ("mtx", "npz", "edgelist")}
     assert len(lists) == 1
+
+
+def test_no_other_edge_list_is_ever_replaced(web: Path) -> None:
+    certificate, mine = web.with_name("out.json"), web.with_name("out.edges")
+    mine.write_text("1 2 1\n")
+    main(["prove", str(web), "-o", str(certificate)])
+    former, kept = certificate.read_bytes(), edge_list_of(certificate)
+    scipy.io.mmwrite(web.with_name("web.mtx"), matrix(seed=6))
+    main(["prove", str(web), "-o", str(certificate)])
+    certificate.write_bytes(former)
+    assert main(["check", str(certificate), "--numeric"]) == 0
+    assert (mine.read_text(), kept.exists()) == ("1 2 1\n", True)
 
 
 def test_another_design_is_told(web: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -99,7 +116,7 @@ def test_an_edge_list_that_was_spoilt_is_no_certificate(
 ) -> None:
     certificate = web.with_name("out.json")
     main(["prove", str(web), "-o", str(certificate)])
-    spoil(web.with_name("out.edges"))
+    spoil(edge_list_of(certificate))
     capsys.readouterr()
     assert main(["check", str(certificate), "--numeric"]) == 2
     told = capsys.readouterr().err
@@ -190,10 +207,11 @@ def test_the_gate_decides_checks_keeps_and_compares(web: Path, capsys: pytest.Ca
     for _ in range(2):
         status = main(["gate", str(folder), "-o", str(certificates), "--cache", str(cache), "-j", "1"])
         assert (status, "2 designs: 2 pass" in capsys.readouterr().out) == (0, True)
-    assert sorted(x.name for x in certificates.iterdir()) == ["torus.json", "web.edges", "web.json"]
+    edges = edge_list_of(certificates / "web.json")
+    assert {x.name for x in certificates.iterdir()} == {"torus.json", edges.name, "web.json"}
     assert main(["check", str(certificates / "web.json"), "--numeric"]) == 0
     assert main(["gate", str(folder), "--baseline", str(certificates), "-j", "1"]) == 0
-    (certificates / "web.edges").unlink()
+    edges.unlink()
     assert main(["gate", str(folder), "--baseline", str(certificates), "-j", "1"]) == 2
 
 
