@@ -16,7 +16,16 @@ import pytest
 from fomas_verify.checker import large_bounds
 from fomas_verify.checker.edge_list import network_of
 from fomas_verify.checker.families import Family
-from fomas_verify.checker.large import _consensus, _contraction, _norm_bound, _redone
+from fomas_verify.checker.large import (
+    _all_of,
+    _below,
+    _consensus,
+    _contraction,
+    _norm_bound,
+    _redone,
+    _reflection,
+    at_most,
+)
 from fomas_verify.checker.large_bounds import Known, LargeGraph
 from fomas_verify.checker.large_form import LargeDesign
 from fomas_verify.checker.network import Network
@@ -347,3 +356,34 @@ def test_a_state_is_as_long_as_its_entries_over_one_denominator(monkeypatch: pyt
     monkeypatch.setattr(large_bounds, "MAX_STATE_BITS", 19)
     with pytest.raises(Undecided, match="so large a common denominator"):
         _ = Known(about(x0=state), LargeGraph(Family("cycle", 4, None), None)).error_quotients
+
+
+@pytest.mark.parametrize(
+    ("ends", "bound", "answer"),
+    [((0, 1), 2, True), ((0, 2), 2, None), ((1, 3), 2, None), ((2, 3), 2, False), ((3, 4), 2, False)],
+)
+def test_what_is_below(ends: tuple[int, int], bound: int, answer: bool | None) -> None:
+    assert _below(Enclosure(F(ends[0]), F(ends[1])), F(bound)) is answer
+
+
+def test_what_is_at_most() -> None:
+    low, high, wide = (Enclosure(F(a), F(b)) for a, b in ((0, 1), (1, 2), (0, 2)))
+    assert [at_most(low, high), at_most(high, wide), at_most(wide, high), at_most(wide, low)] == [
+        True,
+        None,
+        None,
+        None,
+    ]
+    assert at_most(Enclosure(F(3), F(4)), high) is False
+
+
+def test_all_of_several_truths() -> None:
+    for truths in itertools.product((True, False, None), repeat=2):
+        assert (_all_of(*truths) is True) == all(truths)
+        assert (_all_of(*truths) is False) == any(x is False for x in truths)
+    assert [_all_of(True, True), _all_of(True, None), _all_of(None, False)] == [True, None, False]
+
+
+def test_the_reflection_is_enclosed_all_over() -> None:
+    found = _reflection(known(listed("path", 3), mu=("1/4", "1/2"), lambda_max=(2, 3)), BITS)
+    assert (found.lower, found.upper) == (F(1, 2), F(3, 2))

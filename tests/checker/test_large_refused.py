@@ -264,6 +264,16 @@ def test_where_assumption_1_fails(edges: Edges, verdict: str) -> None:
         ("claims.2.verdict", "inapplicable"),
         ("claims.0.witness", {"unreachable": [1, 2]}),
         ("claims.0.witness", {"imbalance": {"agent": 3, "in": "1", "out": "1"}}),
+        *(
+            ("claims.0.witness", {"imbalance": {"agent": agent, "in": heard, "out": spoken}})
+            for agent, heard, spoken in (
+                (1, "2", "3/2"),
+                (1, "1", "2"),
+                (1, "1/2", "3/2"),
+                (1, "1", "1"),
+                (2, "1", "1"),
+            )
+        ),
         ("values.lambda2", {"lower": "0", "upper": "9"}),
         ("spectrum", {"lambda2_lower": "0"}),
     ]

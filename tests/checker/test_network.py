@@ -121,6 +121,32 @@ def test_weights_over_one_denominator() -> None:
     assert [Fraction(w, found.denominator) for w in found.weights] == [Fraction(1, 2), Fraction(1, 3), 5]
 
 
+def test_each_weight_is_read_as_a_whole() -> None:
+    """Weights that begin or end alike are not the same."""
+    found = read(b"1 2 11\n1 3 21\n2 1 3/2\n2 3 1/2\n3 1 3/4\n3 2 12\n", 6)
+    weights = [Fraction(w, found.denominator) for w in found.weights]
+    assert weights == [11, 21, Fraction(3, 2), Fraction(1, 2), Fraction(3, 4), 12]
+
+
+@pytest.mark.parametrize(
+    ("data", "words"),
+    [
+        (b"1 2 1\n2 4 1\n3 1 1\n", "line 2: expected two of 3 agents"),
+        (b"1 2 1\n2 3 1\n4 1 1\n", "line 3: expected two of 3 agents"),
+        (b"1 2 1\n2 2 1\n3 1 1\n", "line 2: expected two of 3 agents"),
+        (b"1 2 1\n1 2 1\n3 1 1\n", "line 2: expected two of 3 agents"),
+        (b"1 2 1\n2 3 x\n3 1 1\n", "line 2: expected an edge: from to weight"),
+        (b"1 2 1\n2 3 1\n3 1 1\n3 2 1\n", "line 4: expected its end"),
+        (b"1 2 1\n2 3 2/4\n3 1 1\n", "line 2: expected a weight in lowest terms"),
+        (b"1 2 1\n2 3 1\n", "expected 3 edges, got 2"),
+    ],
+    ids=str,
+)
+def test_a_line_is_refused_by_its_number(data: bytes, words: str) -> None:
+    with pytest.raises(Malformed, match=words):
+        read(data)
+
+
 @pytest.mark.parametrize("bits", [4, 5])
 def test_the_denominator_has_its_limit(bits: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """15 has four bits, 17 has five."""
