@@ -7,6 +7,7 @@ reader that went away 141 (both as a shell reports the signals).
 import errno
 import os
 import sys
+from contextlib import suppress
 
 CANNOT_WRITE = 2
 UNWRITABLE = (errno.ENOSPC, errno.EFBIG, errno.EIO, errno.EDQUOT)
@@ -37,7 +38,7 @@ def main() -> None:
         status = INTERRUPTED
     except OSError as error:
         if error.filename is None and error.errno in UNWRITABLE:
-            sys.stderr.write(f"verify-design: standard output: cannot write: {os.strerror(error.errno)}\n")
+            _say(f"standard output: cannot write: {os.strerror(error.errno)}")
             status = CANNOT_WRITE
         else:
             _report(error)
@@ -56,7 +57,14 @@ def _report(error: Exception) -> None:
 
         traceback.print_exception(error)
     line = " ".join(f"{type(error).__name__}: {error}".split())
-    sys.stderr.write(f"verify-design: internal error: {line}\n")
+    _say(f"internal error: {line}")
+
+
+def _say(line: str) -> None:
+    """Tell the user, unless standard error takes nothing: the status says it all the same."""
+    with suppress(OSError):
+        if sys.stderr is not None:
+            sys.stderr.write(f"verify-design: {line}\n")
 
 
 def _drop_output() -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from importlib import import_module
@@ -92,5 +91,5 @@ def main(arguments: list[str] | None = None) -> int:
     except ReaderGoneError:
         raise BrokenPipeError from None
     if message:
-        sys.stderr.write(f"verify-design: {message}\n")
+        click.echo(f"verify-design: {message}", err=True)
     return status

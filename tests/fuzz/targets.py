@@ -11,7 +11,7 @@ from random import Random
 from xml.etree import ElementTree
 
 from fomas_verify.checker import Malformed, check
-from fomas_verify.design import Design, SwitchedDesign, UncertainDesign, read_named
+from fomas_verify.design import AnyDesign, Design, LargeDesign, SwitchedDesign, UncertainDesign, read_named
 from fomas_verify.exact.errors import FomasError
 
 from .mutate import NUMBERS, TEXTS, mutate, mutate_packed
@@ -98,8 +98,10 @@ def fuzz_design(data: bytes, folder: Path) -> str:
     if isinstance(named, str):
         return named
     from fomas_verify.certificate.document import design_object
+    from fomas_verify.certificate.large_document import graph_entry, large_design_object
 
-    json.dumps(design_object(named))
+    large = isinstance(named, LargeDesign)
+    json.dumps(large_design_object(named, graph_entry(named.graph, "c.json")) if large else design_object(named))
     return VERDICT
 
 
@@ -110,23 +112,25 @@ def fuzz_prove(data: bytes, folder: Path) -> str:
         return named
     if not _is_small(named):
         return VERDICT
-    from fomas_verify.prover import prove, prove_uncertain
-    from fomas_verify.region.switching import prove_switched
-
     try:
-        proof = (
-            prove(named)
-            if isinstance(named, Design)
-            else prove_uncertain(named)
-            if isinstance(named, UncertainDesign)
-            else prove_switched(named)
-        )
+        certificate = _certificate(named)
     except FomasError as error:
         return _refused(error, (2, 3))
-    refused = [f"{x.id}: {x.reason}" for x in check(proof.certificate().encode()).outcomes if x.status == "refused"]
+    refused = [f"{x.id}: {x.reason}" for x in check(certificate.encode()).outcomes if x.status == "refused"]
     if refused:
         raise AssertionError(f"the checker refuses the prover's certificate: {refused}")
     return VERDICT
+
+
+def _certificate(named: AnyDesign) -> str:
+    from fomas_verify.prover import prove, prove_large, prove_uncertain
+    from fomas_verify.region.switching import prove_switched
+
+    if isinstance(named, Design):
+        return prove(named).certificate()
+    if isinstance(named, LargeDesign):
+        return prove_large(named).certificate("c.json")
+    return (prove_uncertain(named) if isinstance(named, UncertainDesign) else prove_switched(named)).certificate()
 
 
 def fuzz_certificate(data: bytes, folder: Path) -> str:
@@ -211,7 +215,7 @@ TARGETS: dict[str, Callable[[bytes, Path], str]] = {
 }
 
 
-def _read(data: bytes, folder: Path) -> Design | UncertainDesign | SwitchedDesign | str:
+def _read(data: bytes, folder: Path) -> AnyDesign | str:
     ending = ".json" if data.lstrip()[:1] == b"{" else ".toml"
     file = folder / ("input" if sha256(data).digest()[1] < 16 else f"input{ending}")
     file.write_bytes(data)
@@ -221,13 +225,16 @@ def _read(data: bytes, folder: Path) -> Design | UncertainDesign | SwitchedDesig
         return _refused(error, (2,))
 
 
-def _plain(named: Design | UncertainDesign | SwitchedDesign) -> Design:
-    return named if isinstance(named, Design) else named.least if isinstance(named, UncertainDesign) else named.first
+def _plain(named: AnyDesign) -> Design | LargeDesign:
+    if isinstance(named, UncertainDesign):
+        return named.least
+    return named.first if isinstance(named, SwitchedDesign) else named
 
 
-def _is_small(named: Design | UncertainDesign | SwitchedDesign) -> bool:
+def _is_small(named: AnyDesign) -> bool:
     plain = _plain(named)
-    return plain.graph.agents <= MOST_AGENTS and (plain.horizon or 0) <= MOST_SAMPLES
+    cheap = plain.graph.agents <= MOST_AGENTS or (isinstance(plain, LargeDesign) and plain.graph.known_family)
+    return bool(cheap) and (plain.horizon or 0) <= MOST_SAMPLES
 
 
 def _is_large(path: Path) -> bool:

@@ -27,8 +27,8 @@ FILES = {
     "surrogate.json": JSON % ', "name": "\\ud800"',
     "infinity.json": JSON.replace("0.1", "Infinity") % "",
     "trailing.json": JSON % "" + "{}",
-    "agents.toml": 'alpha = 0.9\nmu = 0.1\n[graph]\nfamily = "complete"\nagents = 1000000000\n',
-    "complete.toml": 'alpha = 0.9\nmu = 0.1\n[graph]\nfamily = "complete"\nagents = 10000\n',
+    "agents.toml": f'alpha = 0.9\nmu = 0.1\n[graph]\nfamily = "complete"\nagents = {2**64 + 1}\n',
+    "complete.json": '{"alpha": 0.9, "mu": 0.1, "graph": {"family": "complete", "agents": 1e99}}',
     "edges.toml": "alpha = 0.9\nmu = 0.1\n[graph]\nagents = 3\nedges = [" + "[1,2]," * 100_000 + "]\n",
     "denominators.toml": "alpha = 0.9\nmu = 0.1\n[graph]\nagents = 3\nedges = "
     + str([[1, 2, f"1/{'7' * 300}"], [2, 3, 1], [3, 1, 1]]).replace("'", '"'),
