@@ -39,7 +39,7 @@ def compute_there(plan: Plan, parts: Iterable[int], address: str, say: Say) -> I
 
         _agree(client, plan, address)
         crew = _Crew(client, address, say)
-        with client.get_executor(pure=False) as executor:
+        with _loss_told(address), client.get_executor(pure=False) as executor:
             handed_out = in_flight(
                 lambda part: executor.submit(compute_on_worker, plan, part), iter(parts), crew.slots, crew.look
             )
@@ -48,8 +48,19 @@ def compute_there(plan: Plan, parts: Iterable[int], address: str, say: Say) -> I
                     yield part, future.result()
                 except KilledWorker:
                     yield part, None
-                except (OSError, CancelledError):
-                    raise SweepError(f"{address}: the scheduler was lost") from None
+
+
+@contextmanager
+def _loss_told(address: str) -> Iterator[None]:
+    """Say that the scheduler was lost, in whatever way its client noticed: by what it raises, or else by asking."""
+    try:
+        yield
+    except SweepError:
+        raise
+    except Exception as error:
+        if not isinstance(error, OSError | CancelledError) and _answers(address):
+            raise
+        raise SweepError(f"{address}: the scheduler was lost") from None
 
 
 def compute_on_worker(plan: Plan, part: int) -> bytes:
@@ -105,6 +116,14 @@ def _client(address: str) -> Iterator[Any]:
         yield client
     finally:
         client.close(timeout=REACHED_WITHIN)
+
+
+def _answers(address: str) -> bool:
+    try:
+        asyncio.run(asyncio.wait_for(_identity(address), REACHED_WITHIN))
+    except Exception:  # whatever it is, nobody is there to go on with
+        return False
+    return True
 
 
 async def _identity(address: str) -> Mapping[str, Any]:
