@@ -54,6 +54,10 @@ HARMFUL = [
     ("large_bounds", "gap * (1 - mu.upper", "gap * (1 - mu.lower", "test_large_bounds.py"),
     ("large_bounds", "if any(map(any, columns))", "if all(map(any, columns))", "test_large_bounds.py"),
     ("large", "known.sigma_square(bits).upper < 1:", "known.sigma_square(bits).upper <= 1:", "test_large_bounds.py"),
+    ("large", "mu.upper * (low.upper + high.upper)", "mu.upper * (low.lower + high.upper)", "test_large_rows.py"),
+    ("large", "(bound**2), known.sigma_square(bits))", "(bound), known.sigma_square(bits))", "test_large_rows.py"),
+    ("large", "need_that(sum(vector) == 0,", "need_that(sum(vector) <= 0,", "test_large_reasons.py"),
+    ("large_form", "if rows * columns != agents:", "if rows * columns < agents:", "test_large_limits.py"),
     ("network", "return self._degrees[0] == self", "return self._degrees[0] >= self", "test_network.py"),
 ]
 
