@@ -23,7 +23,7 @@ class Count(click.IntRange):
 
 design_argument = click.argument("design", type=click.Path(path_type=Path), metavar="DESIGN")
 digits_option = click.option(
-    "--digits", type=click.IntRange(20, 10_000), default=50, show_default=True, help="significant digits of the values"
+    "--digits", type=click.IntRange(20, 5_000), default=50, show_default=True, help="significant digits of the values"
 )
 allow_outside_option = click.option(
     "--allow-outside", is_flag=True, help="a graph file may lie outside the folder of its design"

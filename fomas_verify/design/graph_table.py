@@ -21,7 +21,7 @@ MAX_FAMILY: Final = 2**64
 MAX_DENOMINATOR_BITS: Final = 256
 
 Graph = Digraph | LargeGraph
-"""A digraph on at most 200 agents, or a larger one."""
+"""A digraph on at most 100 agents, or a larger one."""
 
 _FORMS = ("adjacency", "edges", "file", "family")
 # The keys that may stand beside each form.

@@ -14,8 +14,8 @@ from fomas_verify.enclosure.interval import Interval
 from fomas_verify.network import Digraph
 from fomas_verify.network.large import LargeGraph
 
-MOST_AGENTS_EXACTLY: Final = 200
-"""Agents up to which a design is decided from exact matrices: half a minute, which grows with the fourth power."""
+MOST_AGENTS_EXACTLY: Final = 100
+"""Agents up to which a design is decided from exact matrices: seconds, which grow with the fourth power."""
 MAX_LISTED_AGENTS: Final = 10_000
 """Agents up to which a graph is held with one Python object an edge."""
 MAX_LISTED_EDGES: Final = 1 << 22

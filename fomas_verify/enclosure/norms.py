@@ -35,12 +35,12 @@ def perron_matrix(laplacian: Matrix, mu: Interval) -> BallMatrix:
     return arb_mat(n, n, [arb(int(i == j)) - gain * arb(to_fmpq(rows[i][j])) for i in range(n) for j in range(n)])
 
 
-def centering(n: int) -> BallMatrix:
-    """``I - J``, which takes from each column its mean: for A that keeps the vector 1, ``norm((I - J) A)`` is the
-    norm on 1perp.
+def centered(a: BallMatrix) -> BallMatrix:
+    """``(I - J) A``, which takes from each column its mean: for A that keeps the vector 1, its norm is that of A on
+    1perp.
     """
-    share = arb(1) / n
-    return arb_mat(n, n, [int(i == j) - share for i in range(n) for j in range(n)])
+    n = a.nrows()
+    return a - arb_mat(n, 1, [1] * n) * (arb_mat(1, n, [arb(1) / n] * n) * a)
 
 
 def spectral_norm(a: BallMatrix, squarings: int) -> Interval:
@@ -55,7 +55,7 @@ def spectral_norm(a: BallMatrix, squarings: int) -> Interval:
     trace = _trace(gram)
     if not trace.abs_upper() > 0:
         return Interval.exactly(0)
-    square = _trace(gram * gram)
+    square = _sum_of_squares(gram)
     upper = square.nonnegative_part().sqrt()
     lower = square / trace if trace > 0 else arb(0)
     low, high = lower.nonnegative_part().lower(), upper.upper()
@@ -67,6 +67,11 @@ def spectral_norm(a: BallMatrix, squarings: int) -> Interval:
 
 def _trace(a: BallMatrix) -> arb:
     return sum((a[i, i] for i in range(a.nrows())), arb(0))
+
+
+def _sum_of_squares(a: BallMatrix) -> arb:
+    """``trace(A A^T)``, which is ``trace(A^2)`` where A is symmetric."""
+    return sum((x * x for row in a.tolist() for x in row), arb(0))
 
 
 def _magnitude(a: BallMatrix) -> int:
@@ -95,7 +100,7 @@ def approx_preimage_of_top(a: BallMatrix, laplacian: Matrix) -> list[Fraction]:
     It solves ``(L + J) x = w`` for the top right singular vector w of ``(I - J) A``.
     """
     n = a.nrows()
-    top = centering(n) * a
+    top = centered(a)
     gram = (top.transpose() * top).mid()
     for _ in range(16):
         gram = gram * (arb(2) ** -_magnitude(gram))

@@ -29,7 +29,7 @@ from fomas_verify.spectrum.large import LargeBounds, large_bounds
 from fomas_verify.spectrum.large_loop import LargeLoop, enclosed_gain
 
 SOLVER = "scipy"
-NO_SETTLING = "settle_to: settling is not measured of more than 200 agents yet"
+NO_SETTLING = "settle_to: settling is not measured of more than 100 agents yet"
 MOST_BITS = 900
 """Of a value in the certificate: the checker's enclosures have 1024."""
 MOST_VECTOR_TEXT = 40 << 20

@@ -17,7 +17,7 @@ from fomas_verify.enclosure.interval import Interval
 from fomas_verify.enclosure.norms import (
     BallMatrix,
     ball_identity,
-    centering,
+    centered,
     perron_matrix,
     plus_multiple,
     spectral_norm,
@@ -30,8 +30,11 @@ from fomas_verify.spectrum.remembered import of_loop
 COARSE, ROUGH, MIDDLE, FINE = 4, 7, 14, 52
 """Squarings of a norm on the way and of one that decides: relative widths of about 5 %, 1 %, 5e-5 and 1e-15."""
 
-SAMPLE_WORK, FEWEST_SAMPLES = 500_000_000, 200
-"""Bounds on ``K N^3`` and on K, the last sample examined; K may always reach the third."""
+FEW_BITS = 64
+"""The precision of norms that are known to some per cent only; their matrices keep the whole of it."""
+
+SAMPLE_WORK, LARGER_SAMPLE_WORK, LARGER = 500_000_000, 150_000_000, 60
+"""Bounds on ``K N^3``, K the last sample examined: the first up to so many agents, the second beyond."""
 
 UNSTABLE_SAMPLES = 2_000
 """Bound on K where P is not Schur on 1perp, so that no tail will end the search."""
@@ -64,7 +67,8 @@ class Tail:
 
 def sample_limit(loop: Loop) -> int:
     """The last sample that may be examined: a bound on work, the same on every machine."""
-    return max(FEWEST_SAMPLES, min(loop.most_samples, SAMPLE_WORK // loop.design.graph.agents**3))
+    agents = loop.design.graph.agents
+    return min(loop.most_samples, (SAMPLE_WORK if agents <= LARGER else LARGER_SAMPLE_WORK) // agents**3)
 
 
 class Samples:
@@ -80,7 +84,6 @@ class Samples:
         self.limit = sample_limit(loop)
         self.perron = perron_matrix(loop.laplacian, mu)
         self.identity = ball_identity(self.perron.nrows())
-        self._center = centering(self.perron.nrows())
         self._resolvent = resolvent_over(self.alpha, 64, bits)
 
     def resolvent(self, k: int) -> Interval:
@@ -102,11 +105,13 @@ class Samples:
 
     def centered(self, a: BallMatrix) -> BallMatrix:
         """``(I - J) A``, the part of a matrix that keeps the vector 1 which acts on 1perp."""
-        return self._center * a
+        return centered(a)
 
     def norm(self, a: BallMatrix, squarings: int = COARSE) -> Interval:
         """The norm on 1perp of a matrix that keeps the vector 1."""
-        return spectral_norm(self._center * a, squarings)
+        square = centered(a)
+        with working_precision(min(self._bits, FEW_BITS) if squarings <= ROUGH else self._bits):
+            return spectral_norm(square, squarings)
 
 
 class TailTest:
@@ -240,9 +245,15 @@ def submultiplied(powers: dict[int, Fraction], n: int) -> Fraction:
 def _refined(run: Samples, checkpoints: list[Checkpoint], tail: Tail, least: Fraction, above: int | None) -> Peak:
     """The peak among the samples that may attain it, their norms computed ever more finely; k = 0 has the norm 1."""
     kept = [(run.norm(phi), k, phi) for k, phi in _between(run, checkpoints, tail, least)]
-    for squarings in (MIDDLE, FINE):
-        least = max([least, *(norm.lower for norm, _, _ in kept)])
-        kept = [(run.norm(phi, squarings), k, phi) for norm, k, phi in kept if norm.upper >= least]
+    least = max([least, *(norm.lower for norm, _, _ in kept)])
+    for squarings in (ROUGH, MIDDLE, FINE):
+        closer = []
+        # The most promising come first: a higher norm leaves fewer to be looked at more closely.
+        for norm, k, phi in sorted(kept, key=lambda found: (-found[0].lower, found[1])):
+            if norm.upper >= least:
+                closer.append((run.norm(phi, squarings), k, phi))
+                least = max(least, closer[-1][0].lower)
+        kept = [found for found in closer if found[0].upper >= least]
     fine = {0: Interval.exactly(1)} | {k: norm for norm, k, _ in kept}
     at = max(sorted(fine), key=lambda k: fine[k].lower)
     value = Interval(fine[at].lower, max(x.upper for x in fine.values()))

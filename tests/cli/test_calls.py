@@ -23,7 +23,7 @@ PAPER = "examples/paper.toml"
         ["prove", PAPER, "extra"],
         ["prove", PAPER, "--no-such-option"],
         ["prove", PAPER, "--digits", "19"],
-        ["prove", PAPER, "--digits", "10001"],
+        ["prove", PAPER, "--digits", "5001"],
         ["prove", PAPER, "--digits", "1e3"],
         ["prove", PAPER, "--digits"],
         ["prove", PAPER, "--horizon", "-1"],

@@ -143,11 +143,11 @@ def test_json_alone_says_what_lies_beside(web: Path, capsys: pytest.CaptureFixtu
         ("region big.toml", 2, "20000 agents, more than 10000, are not supported yet here"),
         ("synthesize big.toml", 2, "20000 agents, more than 10000, are not supported yet here"),
         ("prove big.toml --coq out", 2, "--coq is not supported yet with 20000 agents"),
-        ("report mid.toml", 3, "more than 200 agents are beyond what takes matrices"),
+        ("report mid.toml", 3, "more than 100 agents are beyond what takes matrices"),
         ("region mid.toml", 3, "more than 120 agents are beyond region for now"),
         ("synthesize mid.toml", 3, "more than 120 agents are beyond region for now"),
-        ("prove wide.toml", 2, "with an interval for mu 201 agents, more than 200, are not supported yet"),
-        ("prove many.toml", 2, "graphs[0]: 201 agents, more than 200, are not supported yet"),
+        ("prove wide.toml", 2, "with an interval for mu 101 agents, more than 100, are not supported yet"),
+        ("prove many.toml", 2, "graphs[0]: 101 agents, more than 100, are not supported yet"),
         ("prove vast.toml", 2, "more than 18446744073709551616, are not supported yet"),
         ("prove none.toml", 2, "expected a file, got no such file"),
         ("prove heavy.toml", 2, ": expected weights whose common denominator has at most 256 bits"),
@@ -165,9 +165,9 @@ def test_what_is_refused_is_refused_in_one_line(
     ring = 'family = "cycle"\nagents = {}\n'
     texts = {
         "big": head + ring.format(20000),
-        "mid": head + ring.format(201),
-        "wide": head.replace("0.1", "[0.1, 0.2]") + ring.format(201),
-        "many": head.replace("[graph]", "[[graphs]]") + ring.format(201),
+        "mid": head + ring.format(121),
+        "wide": head.replace("0.1", "[0.1, 0.2]") + ring.format(101),
+        "many": head.replace("[graph]", "[[graphs]]") + ring.format(101),
         "vast": head + ring.format(2**64 + 1),
         "none": head + 'file = "none.npz"\norientation = "hears"\n',
         "heavy": head + 'file = "heavy.edgelist"\n',
@@ -185,7 +185,7 @@ def test_what_is_refused_is_refused_in_one_line(
 def test_what_is_not_measured_is_told_on_standard_error(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "a.toml").write_text('settle_to = "1/100"\n' + TORUS)
     assert main(["prove", str(tmp_path / "a.toml")]) == 1
-    assert capsys.readouterr().err == "note: settle_to: settling is not measured of more than 200 agents yet\n"
+    assert capsys.readouterr().err == "note: settle_to: settling is not measured of more than 100 agents yet\n"
 
 
 def test_the_kernel_needs_no_graph(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from flint import arb, arb_mat
 
-from fomas_verify.enclosure.norms import centering, spectral_norm, squared_image
+from fomas_verify.enclosure.norms import ball_identity, centered, spectral_norm, squared_image
 from fomas_verify.enclosure.real import working_precision
 
 
@@ -27,7 +27,7 @@ def test_the_norm_lies_inside_and_the_width_falls(n: int, squarings: int) -> Non
 
 def test_a_multiple_top_singular_value() -> None:
     with working_precision(200):
-        norm = spectral_norm(3 * (centering(8) + 0), 52)
+        norm = spectral_norm(centered(ball_identity(8) * 3), 52)
     assert norm.contains(Fraction(3))
     assert norm.width < Fraction(1, 10**14)
 

@@ -94,6 +94,22 @@ def test_the_exact_path_says_the_same_of_two_hundred_random_graphs() -> None:
     assert_random_graphs_agree(range(296, 300), 70)
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("agents", [60, 100])
+@pytest.mark.parametrize("name", ["cycle", "directed-cycle", "complete"])
+def test_up_to_the_size_where_matrices_end_they_say_the_same(name: str, agents: int) -> None:
+    graph = {"family": name, "agents": agents}
+    for mu in (Fraction(1, 4 * agents), Fraction(1, 3), Fraction(9, 10)):
+        design = design_from_mapping({"name": "x", "alpha": "9/10", "mu": str(mu), "graph": graph})
+        assert_the_same(design, prove_large(LargeDesign.of(design)))
+
+
+def test_beyond_100_agents_no_matrix_is_formed() -> None:
+    keys = {"name": "x", "alpha": "9/10", "mu": "1/10"}
+    assert isinstance(named_from_mapping({**keys, "graph": {"family": "cycle", "agents": 100}}), Design)
+    assert isinstance(named_from_mapping({**keys, "graph": {"family": "cycle", "agents": 101}}), LargeDesign)
+
+
 @pytest.mark.parametrize(("name", "size"), FAMILIES, ids=lambda x: str(x) if isinstance(x, str) else str([*x.values()]))
 def test_a_family_by_its_eigenvalues_is_what_its_matrices_say(name: str, size: dict[str, Any]) -> None:
     for i, share in enumerate(SHARES):

@@ -46,7 +46,7 @@ UNSAYABLE_OF_DESIGNS = [
     r"edges\[\d+\]\[[01]\]: expected an integer >= 1 and <= \d+",
     r"agents: expected \d+, as the shape says",
     r"(agents|shape): .* agents, more than 18446744073709551616, are not supported yet",
-    r"more than 200, are not supported yet",
+    r"more than 100, are not supported yet",
     r"graphs\[\d+\]: expected \d+ agents as before",
     # what is in a file, and where it lies
     r"file: expected a file in the folder of the design",
