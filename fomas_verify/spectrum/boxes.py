@@ -16,7 +16,7 @@ from fomas_verify.enclosure.real import square_root, working_precision
 from fomas_verify.exact import matrix as exact
 from fomas_verify.kernel.memory import threshold
 from fomas_verify.spectrum.loop import Loop, sigma_at
-from fomas_verify.spectrum.samples import MIDDLE, ROUGH, Box, Samples, Tail, TailTest, submultiplied
+from fomas_verify.spectrum.samples import MIDDLE, ROOM, ROOM_ALONG, ROUGH, Box, Samples, Tail, TailTest, submultiplied
 
 Size: TypeAlias = Callable[[BallMatrix], Fraction]
 
@@ -47,7 +47,8 @@ def tail_over(loop: Loop, box: Box, bits: int, components: Sequence[Sequence[Fra
     if (star := loop.mu_star(bits)) is None or box.mu.upper >= star.upper:
         return None
     with working_precision(bits):
-        run, powers = Samples(loop, bits, box), {0: Fraction(1)}
+        run = Samples(loop, bits, box, room=ROOM if components is None else ROOM_ALONG)
+        powers = {0: Fraction(1)}
         size = _size_on_sum_zero(run) if components is None else _size_along(loop, components, bits)
         test, unseen = TailTest(box.alpha, bits), []
         for sample in run.all(MOST_SAMPLES):

@@ -71,15 +71,20 @@ def sample_limit(loop: Loop) -> int:
     return min(loop.most_samples, (SAMPLE_WORK if agents <= LARGER else LARGER_SAMPLE_WORK) // agents**3)
 
 
+ROOM, ROOM_ALONG = Fraction(2), Fraction(3)
+"""Of samples as matrices, and along one initial state, where entries keep errors apart that a norm adds up."""
+
+
 class Samples:
     """The samples of one loop at one precision; the caller holds the working precision."""
 
-    def __init__(self, loop: Loop, bits: int, box: Box | None = None) -> None:
+    def __init__(self, loop: Loop, bits: int, box: Box | None = None, *, room: Fraction = ROOM) -> None:
         """Enclose P and the first coefficients of the resolvent, over a box where one is given.
 
-        P is enclosed over twice the box's part of mu: a checker that bounds errors by norms needs that room.
+        P is enclosed over `room` times the box's part of mu: a checker that bounds errors by norms needs that.
         """
-        mu = loop.mu(bits) if box is None else Interval(box.mu.mid - box.mu.width, box.mu.mid + box.mu.width)
+        reach = None if box is None else room / 2 * box.mu.width
+        mu = loop.mu(bits) if box is None or reach is None else Interval(box.mu.mid - reach, box.mu.mid + reach)
         self.alpha, self._bits = Interval.exactly(loop.design.alpha) if box is None else box.alpha, bits
         self.limit = sample_limit(loop)
         self.perron = perron_matrix(loop.laplacian, mu)
