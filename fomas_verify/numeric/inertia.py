@@ -68,8 +68,13 @@ def _factored(upper: Any, full: Any) -> _Factor | None:
     import qdldl
     from scipy.sparse import block_array, csc_array, csr_array, diags_array, eye_array, triu
 
-    lower, pivots, order = qdldl.Solver(upper, upper=True).factors()
-    n, order = len(pivots), np.array(order)
+    n = upper.shape[0]
+    if n <= _TAIL:
+        # All is the end: a first pivot of exactly 0 is no obstacle.
+        lower, pivots, order = csc_array((n, n)), np.zeros(n), np.arange(n)
+    else:
+        lower, pivots, order = qdldl.Solver(upper, upper=True).factors()
+    order = np.array(order)
     if not np.array_equal(np.sort(order), np.arange(n)):
         return None
     first = _first_of_tail(pivots, full.diagonal()[order])
