@@ -66,6 +66,12 @@ class Symmetric:
             (self.upper.indices[last] == np.arange(len(last))).all() and np.isfinite(self.upper.data).all()
         )
 
+    def full(self) -> Any:
+        """The matrix, csr."""
+        from scipy.sparse import csr_array, triu
+
+        return csr_array(self.upper + triu(self.upper, k=1).T)
+
     def shifted(self, scale: float, shift: float) -> Symmetric:
         """scale times this (scale = 1 or -1), plus shift on the diagonal."""
         upper = self.upper * scale

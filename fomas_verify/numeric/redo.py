@@ -5,16 +5,19 @@ Source: docs/theory.md, section 14.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
+from typing import cast
 
 from fomas_verify.numeric.floats import Floats, Network, Symmetric
-from fomas_verify.numeric.inertia import inertia
+from fomas_verify.numeric.ways import Way, way_for
 
 SCALE = ("numpy", "scipy", "qdldl")
 """What this room needs: the extra `scale`."""
 
-_FIRST = 2.0**-40
 _TRIES = 3
+_MORE = 1.1
+_BEYOND = 2**60
 _MOST_BITS = 500
 
 
@@ -77,42 +80,42 @@ class Redo:
 
         Where it is the second smallest, the smallest is 0, at the vector 1, and only a target > 0 is decided.
         """
-        if (up and target <= 0) or not matrix.is_whole:
+        if (up and target <= 0) or abs(target) >= _BEYOND or not matrix.is_whole:
             return None
-        largest = float(abs(matrix.upper).max())
-        room = _FIRST * largest
-        for _ in range(_TRIES):
-            found = self._beyond(matrix, target, room, up=up)
-            if found is None:
-                return None
-            holds, error = found
-            if holds is None and error > room:
-                room = error * 1.1
-                continue
-            if holds:
-                return True
-            refuted = self._beyond(matrix, target, -max(room, error * 1.1), up=up)
-            return False if refuted is not None and refuted[0] is False else None
-        return None
+        way = way_for(matrix, self.memory, on_perp=up)
+        if way is None:
+            return None
+        return _decide(way, target) if up else _decide(replace(way, sign=-1.0), -target)
 
-    def _beyond(
-        self, matrix: Symmetric, target: Fraction, room: float, *, up: bool
-    ) -> tuple[bool | None, float] | None:
-        """What a factor at the target moved by `room` into the safe side shows, and its error."""
-        shift = float(target) + room if up else float(target) - room
-        moved = matrix.shifted(1.0, -shift) if up else matrix.shifted(-1.0, shift)
-        found = inertia(moved, self.memory)
+
+def _decide(way: Way, target: Fraction) -> bool | None:
+    """Whether the eigenvalue that the way bounds is at least the target.
+
+    A bound is asked for at a distance on the safe side of the target, the room, which is made as small or large as the
+    error that was met; then on the other side, for a bound that shows the opposite.
+    """
+    room, tries = way.first_room(), _TRIES
+    while tries:
+        found = way.near(float(target) + room)
         if found is None:
             return None
-        negative, error = found
-        expected = 1 if up else 0
-        below = Fraction(error)
-        # Safe: K - shift I (or its opposite) has at most the expected eigenvalues at or below -error.
-        if negative <= expected and (Fraction(shift) - below >= target if up else Fraction(shift) + below <= target):
-            return True, error
-        if negative > expected and (Fraction(shift) + below < target if up else Fraction(shift) - below > target):
-            return False, error
-        return None, error
+        if found.lower is not None and found.lower >= target:
+            return True
+        if found.upper is not None and found.upper < target:
+            return False
+        if found.lower is None and (found.error is None or found.error * _MORE > room / 2):
+            break
+        room, tries = cast(float, found.error) * _MORE, tries - 1
+    for _ in range(_TRIES):
+        found = way.near(float(target) - room)
+        if found is None or found.lower is not None:
+            return None
+        if found.upper is not None and found.upper < target:
+            return False
+        if found.error is None or found.error <= room:
+            return None
+        room = found.error * _MORE
+    return None
 
 
 def _degree(network: Network) -> Fraction:

@@ -77,17 +77,18 @@ def test_weights_too_far_apart_for_doubles_are_left_alone() -> None:
     assert redo.sigma_at_most(given, (Fraction(1, 10**300),) * 2, Fraction(99, 100)) is None
 
 
-def matrix(seed: int = 0) -> tuple[Symmetric, np.ndarray]:
+def matrix(seed: int = 0, n: int = 80, *, least: int = 40) -> tuple[Symmetric, np.ndarray]:
+    """Of a band and some more, so that qdldl's columns and the end that is not qdldl's both matter."""
     rng = np.random.default_rng(seed)
-    full = rng.integers(-9, 10, (6, 6)).astype(float)
+    full = np.triu(np.tril(rng.integers(-9, 10, (n, n)).astype(float), 3))
     full = full + full.T
-    np.fill_diagonal(full, rng.integers(1, 30, 6))
-    return Symmetric(csc_array(np.triu(full)), np.zeros(6)), full
+    np.fill_diagonal(full, rng.integers(least, 90, n))
+    return Symmetric(csc_array(np.triu(full)), np.zeros(n)), full
 
 
 def test_the_count_is_that_of_dense_eigenvalues() -> None:
     for seed in range(50):
-        symmetric_matrix, full = matrix(seed)
+        symmetric_matrix, full = matrix(seed, 6 + 2 * seed, least=(-9, 20, 40)[seed % 3])
         found = inertia.inertia(symmetric_matrix, MEMORY)
         values = np.linalg.eigvalsh(full)
         if found is not None and min(abs(values)) > 1e-6:
@@ -95,7 +96,7 @@ def test_the_count_is_that_of_dense_eigenvalues() -> None:
             assert found[1] < 1e-9
 
 
-@pytest.mark.parametrize("damage", ["entry", "pivot", "order", "upper", "diagonal"])
+@pytest.mark.parametrize("damage", ["entry", "pivot", "order", "upper", "diagonal", "huge"])
 def test_a_factor_that_is_not_one_is_seen(monkeypatch: pytest.MonkeyPatch, damage: str) -> None:
     """The residual is as large as what was changed, or the factor is not taken at all."""
     import qdldl
@@ -113,16 +114,20 @@ def test_a_factor_that_is_not_one_is_seen(monkeypatch: pytest.MonkeyPatch, damag
             if damage == "entry":
                 lower.data[0] += 1e-3
             elif damage == "pivot":
-                pivots[-1] = -pivots[-1]
+                pivots[0] = -pivots[0]
             elif damage == "order":
                 order[0] = order[1]
+            elif damage == "huge":
+                # Products overflow, and what is compared is no number: it must not pass for a small one.
+                lower.data[:] = 1e300
             else:
-                extra = np.zeros((6, 6))
+                extra = np.zeros(lower.shape)
                 extra[(0, 3) if damage == "upper" else (2, 2)] = 1.0
                 lower = csc_array(lower + csc_array(extra))
             return lower, pivots, order
 
     monkeypatch.setattr(qdldl, "Solver", Damaged)
+    monkeypatch.setattr(inertia, "_MOST_TAIL", 48)
     found = inertia.inertia(symmetric_matrix, MEMORY)
     assert found is None or found[1] > 1e-5
 
