@@ -17,6 +17,9 @@ from fomas_verify.exact.matrix import Matrix, to_rows
 
 BallMatrix = arb_mat
 
+_FEW = 60
+"""Agents up to which a whole product is cheap."""
+
 
 def ball_identity(n: int) -> BallMatrix:
     """The n x n identity."""
@@ -40,7 +43,11 @@ def centered(a: BallMatrix) -> BallMatrix:
     1perp.
     """
     n = a.nrows()
-    return a - arb_mat(n, 1, [1] * n) * (arb_mat(1, n, [arb(1) / n] * n) * a)
+    share = arb(1) / n
+    if n <= _FEW:
+        # A whole product takes each entry once, which keeps wide balls as they are over a box.
+        return arb_mat(n, n, [int(i == j) - share for i in range(n) for j in range(n)]) * a
+    return a - arb_mat(n, 1, [1] * n) * (arb_mat(1, n, [share] * n) * a)
 
 
 def spectral_norm(a: BallMatrix, squarings: int) -> Interval:
