@@ -1,7 +1,6 @@
 """``verify-design simulate``: the table, the files, and each way to be refused."""
 
 import csv
-import importlib.util
 import io
 import json
 import os
@@ -24,9 +23,6 @@ PAPER = "examples/paper.toml"
 PAIR: dict[str, Any] = {
     "alpha": "1/2", "gamma": "1/4", "h": 1, "x0": [0, 1], "graph": {"family": "path", "agents": 2},
 }  # fmt: skip
-drawn = pytest.mark.skipif(
-    importlib.util.find_spec("matplotlib") is None, reason="matplotlib comes with the extra plot"
-)
 
 
 @pytest.fixture
@@ -104,7 +100,6 @@ def test_a_controller_tuned_for_another_order(call: Verify) -> None:
     assert call("simulate", PAPER, "--alpha-controller", "9/10").stdout == call("simulate", PAPER).stdout
 
 
-@drawn
 def test_figures(call: Verify, tmp_path: Path) -> None:
     folder = tmp_path / "a" / "b"
     run = call("simulate", PAPER, "--samples", 40, "--plot", folder, "--format", "svg")
@@ -268,7 +263,6 @@ def test_a_call_that_is_refused(call: Verify, options: list[str], words: list[st
     refused(call("simulate", PAPER, *options), *words)
 
 
-@drawn
 def test_a_figure_folder_that_cannot_be_written(call: Verify, tmp_path: Path) -> None:
     """Then nothing is written, the table neither."""
     taken, table = tmp_path / "file", tmp_path / "loop.csv"

@@ -20,6 +20,7 @@ from .processes import NO_LATEX
 
 pytestmark = [
     pytest.mark.slow,
+    # They fill a tmpfs, mount read-only and drop a capability, none of which another system can.
     pytest.mark.skipif(sys.platform != "linux", reason="limits and capabilities as Linux has them"),
 ]
 CAP_DAC_OVERRIDE, PR_CAPBSET_DROP = 1, 24
