@@ -55,8 +55,6 @@ def graph_table(
         return found
     if beside:
         raise DesignError(f"design: {next(iter(beside))}: expected only with edges or a family")
-    if isinstance(graph, SparseDigraph):
-        return graph, ()
     if isinstance(graph, PathLike):
         return _of_file(read_graph_file(Path(graph), orientation, name=f"{_NAME}: {graph}"))
     if hasattr(graph, "is_multigraph") and hasattr(graph, "nodes"):

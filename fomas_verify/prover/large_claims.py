@@ -157,10 +157,8 @@ def _consensus(loop: LargeLoop, bits: int) -> Truth:
 def _contraction(loop: LargeLoop, bits: int) -> Truth:
     """It holds iff sigma = beta, since sigma >= abs(beta)."""
     mu, low, high, beta = loop.mu(bits), loop.lambda2(bits), loop.lambda_max(bits), loop.beta(bits)
-    if loop.facts.is_symmetric:
-        one_eigenvalue = low.is_exact and low == high
-        if (mu * (low + high)).upper <= 2 or (one_eigenvalue and (mu * low).upper <= 1):
-            return True
+    if loop.facts.is_symmetric and (mu * (low + high)).upper <= 2:
+        return True
     return False if beta.upper < 0 or loop.sigma_square(bits).lower > square(beta).upper else None
 
 

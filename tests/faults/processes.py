@@ -7,6 +7,7 @@ command is the same. No LaTeX is on the path: typesetting takes longer than all 
 from __future__ import annotations
 
 import os
+import subprocess
 import sys
 import tempfile
 from collections.abc import Callable
@@ -25,6 +26,23 @@ def run_afresh(command: Command, folder: Path) -> tuple[int, str]:
     """The status and standard error of a new interpreter."""
     ended = run(command.arguments, folder, **NO_LATEX)
     return ended.returncode, ended.stderr.decode()
+
+
+def told(
+    line: list[str], folder: Path, *, stdout: int = subprocess.PIPE, before_start: Callable[[], None] | None = None
+) -> subprocess.CompletedProcess[str]:
+    """How a command line ends in a folder, and what it says."""
+    return subprocess.run(
+        line,
+        cwd=folder,
+        env=environment(**NO_LATEX),
+        stdin=subprocess.DEVNULL,
+        stdout=stdout,
+        stderr=subprocess.PIPE,
+        text=True,
+        check=False,
+        preexec_fn=before_start,
+    )
 
 
 def run_forked(command: Command, folder: Path) -> tuple[int, str]:

@@ -13,10 +13,10 @@ from pathlib import Path
 
 import pytest
 
-from .commands import Command, call, environment, found, lay
+from .commands import Command, call, found, lay
 from .conftest import Known
 from .killing import TEMPORARY, Prepared, faults
-from .processes import NO_LATEX
+from .processes import told
 
 pytestmark = [
     pytest.mark.slow,
@@ -29,16 +29,7 @@ CAP_DAC_OVERRIDE, PR_CAPBSET_DROP = 1, 24
 def disturbed(
     command: Command, folder: Path, before_start: Callable[[], None] | None = None
 ) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        call(command.arguments),
-        cwd=folder,
-        env=environment(**NO_LATEX),
-        stdin=subprocess.DEVNULL,
-        capture_output=True,
-        text=True,
-        check=False,
-        preexec_fn=before_start,
-    )
+    return told(call(command.arguments), folder, before_start=before_start)
 
 
 def must_be_refused(run: subprocess.CompletedProcess[str], folder: Path, prepared: Prepared, reason: str) -> None:

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from .commands import NEW, environment, found, lay
-from .processes import NO_LATEX
+from .commands import NEW, found, lay
+from .processes import told
 
 pytestmark = pytest.mark.slow
 WITHOUT = (
@@ -76,15 +76,7 @@ ALONE = [
 
 
 def without(modules: str, words: str, folder: Path) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, "-c", WITHOUT, modules, *words.split()],
-        cwd=folder,
-        env=environment(**NO_LATEX),
-        stdin=subprocess.DEVNULL,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    return told([sys.executable, "-c", WITHOUT, modules, *words.split()], folder)
 
 
 @pytest.mark.parametrize(("module", "words", "extra"), MISSING, ids=lambda value: value.split(" -")[0])

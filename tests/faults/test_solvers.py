@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from .commands import NEW, environment, found, lay, run
-from .processes import NO_LATEX
+from .commands import NEW, found, lay, run
+from .processes import told
 
 pytestmark = pytest.mark.slow
 SPOILT = """
@@ -65,15 +65,7 @@ KINDS = ["NaN", "zero", "huge", "a little off", "nothing", "raises"]
 
 
 def spoilt(kind: str, words: str, folder: Path) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, "-c", SPOILT, kind, *words.split()],
-        cwd=folder,
-        env=environment(**NO_LATEX),
-        stdin=subprocess.DEVNULL,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    return told([sys.executable, "-c", SPOILT, kind, *words.split()], folder)
 
 
 def must_be_true(folder: Path) -> None:

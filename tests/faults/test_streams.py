@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from .commands import NEW, call, environment, found, lay
-from .processes import NO_LATEX
+from .processes import told
 
 pytestmark = pytest.mark.slow
 CALLS = [
@@ -42,16 +42,7 @@ def folder(room: Path, checkout: Path) -> Path:
 
 
 def started(words: str, folder: Path, stdout: int, prefix: tuple[str, ...] = ()) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [*prefix, *call(tuple(words.split()))],
-        cwd=folder,
-        env=environment(**NO_LATEX),
-        stdin=subprocess.DEVNULL,
-        stdout=stdout,
-        stderr=subprocess.PIPE,
-        text=True,
-        check=False,
-    )
+    return told([*prefix, *call(tuple(words.split()))], folder, stdout=stdout)
 
 
 @pytest.mark.parametrize("words", CALLS)
