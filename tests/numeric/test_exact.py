@@ -1,4 +1,7 @@
-"""Redone bounds against exact rational arithmetic: near misses on both sides, by a sparse and by a dense factor."""
+"""Redone bounds against exact rational arithmetic: near misses on both sides, by a sparse and by a dense factor.
+
+Blocks of three rows make several of what are few rows.
+"""
 
 import random
 from fractions import Fraction
@@ -6,7 +9,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from fomas_verify.numeric import Redo, redo
+from fomas_verify.numeric import Redo, dense, redo
 from fomas_verify.numeric.floats import Symmetric
 from fomas_verify.numeric.ways import Way
 from tests.checker.large_networks import Edges, joined, laplacian
@@ -16,11 +19,13 @@ from tests.numeric.test_redo import MEMORY, network
 DISTANCES = (1e-3, 1e-6, 1e-9, 1e-12, 1e-15)
 
 
-@pytest.fixture(params=["sparse", "dense"])
+@pytest.fixture(params=["sparse", "dense", "dense, by blocks"])
 def redone(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> Redo:
     def way_for(matrix: Symmetric, memory: int, *, on_perp: bool) -> Way:
-        return Way(matrix, memory, request.param == "dense", on_perp)
+        return Way(matrix, memory, request.param != "sparse", on_perp)
 
+    if request.param == "dense, by blocks":
+        monkeypatch.setattr(dense, "_BLOCK", 3)
     monkeypatch.setattr(redo, "way_for", way_for)
     return Redo(MEMORY)
 

@@ -1,14 +1,16 @@
 """A dense factor shows what is true, and the cheaper way is taken."""
 
+import math
 import random
 from fractions import Fraction
 
 import numpy as np
 import pytest
+from scipy.linalg import lapack
 from scipy.sparse import csc_array
 
 from fomas_verify.network.sparse_families import sparse_family
-from fomas_verify.spectrum.large import bounds
+from fomas_verify.spectrum.large import bounds, dense
 from fomas_verify.spectrum.large.bounds import large_bounds
 from fomas_verify.spectrum.large.dense import DenseFactors
 from fomas_verify.spectrum.large.factor import SparseFactors
@@ -22,6 +24,7 @@ from tests.spectrum.large.test_large_bounds import MEMORY, assert_true, assert_v
 @pytest.mark.parametrize("seed", range(60))
 def test_bounds_by_a_dense_factor_are_true_and_near(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(bounds, "way_for", lambda near, memory: (DenseFactors(), None))
+    monkeypatch.setattr(dense, "_COLUMNS", (3, 4, 512)[seed % 3])
     rng = random.Random(seed)
     n, spread = rng.randint(2, 18), rng.choice([0, 0, 0, 12])
     edges = random_network(rng, n, symmetric=seed % 3 == 0, spread=spread)
@@ -33,6 +36,17 @@ def test_bounds_by_a_dense_factor_are_true_and_near(seed: int, monkeypatch: pyte
     if not spread:
         assert found.lambda2_lower is not None
         assert found.reason is None
+
+
+def test_lapack_factors_few_rows_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """OpenBLAS writes beyond its memory where 16,000 rows are factored in one call on two threads."""
+    seen, once = [], lapack.dpotrf
+    monkeypatch.setattr(lapack, "dpotrf", lambda a, **keys: seen.append(len(a)) or once(a, **keys))
+    monkeypatch.setattr(bounds, "way_for", lambda near, memory: (DenseFactors(), None))
+    found = large_bounds(sparse_family("path", agents=1100), (Fraction(1, 10),) * 2, memory=MEMORY)
+    assert {*seen} == {512, 76}
+    assert found.lambda2_lower is not None
+    assert 0 < 1 - float(found.lambda2_lower) / (2 - 2 * math.cos(math.pi / 1100)) < 1e-3
 
 
 @pytest.mark.parametrize("seed", range(30))
