@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import Protocol, cast
 
+from fomas_verify.checker.claims import require_shown
 from fomas_verify.checker.edge_list import Opener, read_edge_list
 from fomas_verify.checker.families import Family
 from fomas_verify.checker.large_bounds import Known, LargeGraph, square_of
@@ -16,7 +17,7 @@ from fomas_verify.checker.powers import Enclosure, point
 from fomas_verify.checker.ruling import Refused, Undecided, need, need_that
 from fomas_verify.checker.statements import ANY_GRAPH, STATEMENTS
 from fomas_verify.checker.value_form import Bounds
-from fomas_verify.checker.witness import GraphDefect
+from fomas_verify.checker.witness import GraphDefect, Nothing
 
 PRECISIONS = (128, 256, 512, 1024)
 _UNDER_ASSUMPTION = frozenset({"lambda2", "beta", "sigma"})
@@ -131,6 +132,9 @@ def require_large_claim(known: Known, claim: LargeClaim) -> str:
         if isinstance(claim.witness, GraphDefect):
             _require_defect(known.graph.network, claim.witness)
         return "true"
+    if not isinstance(claim.witness, Nothing):
+        require_shown(known.facts, claim.id, claim.verdict, claim.witness)
+        return "true, and the witness shows it"
     test = _TRUTHS[claim.id] if holds else _UNBALANCED[claim.id]
     truth = decided(lambda bits: test(known, bits))
     if truth is None:

@@ -10,10 +10,12 @@ from functools import cached_property
 from math import lcm
 from typing import cast
 
-from fomas_verify.checker.designs import State
+from fomas_verify.checker.designs import Design, State
 from fomas_verify.checker.edge_list import network_of
+from fomas_verify.checker.facts import Facts
 from fomas_verify.checker.families import Family
 from fomas_verify.checker.gain import Gain
+from fomas_verify.checker.graph import Graph
 from fomas_verify.checker.large_form import LargeDesign
 from fomas_verify.checker.network import Network, Quotients
 from fomas_verify.checker.powers import Enclosure, first_threshold, second_threshold
@@ -163,6 +165,16 @@ class Known:
             low**2 - 2 * mu.upper * high * q + mu.lower**2 * s,
             high**2 - 2 * mu.lower * low * q + mu.upper**2 * s,
         )
+
+    @cached_property
+    def facts(self) -> Facts:
+        """What matrices show of the design."""
+        network, given = self.graph.network, self.design
+        ends = zip(network.sources, network.targets, network.weights, strict=True)
+        edges = tuple((i + 1, j + 1, Fraction(weight, network.denominator)) for i, j, weight in ends)
+        numbers = given.alpha, given.gamma, given.mu, given.h
+        design = Design(given.agents, edges, given.x0, False, given.require, *numbers)
+        return Facts(design, Graph(design))
 
     @cached_property
     def error_quotients(self) -> Quotients | None:

@@ -6,7 +6,6 @@ Source: docs/certificate-format.md, section 11.
 import re
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import cast
 
 from fomas_verify.checker.claim_form import read_claims
 from fomas_verify.checker.designs import (
@@ -21,11 +20,12 @@ from fomas_verify.checker.families import PLAIN, SHAPED, Family
 from fomas_verify.checker.network import MAX_AGENTS, MAX_EDGES
 from fomas_verify.checker.text import Malformed, array, count, expected, fields, rational, string
 from fomas_verify.checker.value_form import Bounds
-from fomas_verify.checker.witness import GraphDefect, Nothing, read_witness
+from fomas_verify.checker.witness import Nothing, Witness, read_witness
 
 MAX_FAMILY = 2**64
 MAX_ENTRY = 2**62
 MAX_VECTORS = 8
+MOST_BY_MATRICES = 200
 VALUES = ("mu", "threshold", "degree_max", "lambda2", "beta", "sigma")
 
 _NAME = re.compile(r"[^./\\:\x00-\x1f\x7f][^/\\:\x00-\x1f\x7f]{0,127}")
@@ -70,7 +70,7 @@ class LargeClaim:
     id: str
     verdict: str
     statement: str
-    witness: Nothing | GraphDefect
+    witness: Witness
 
 
 BY_FACTOR = ("lambda2_lower", "lambda_max_upper", "sigma_upper")
@@ -166,9 +166,10 @@ def read_large_values(value: object, path: str) -> tuple[Bounds, ...]:
 def read_large_claims(value: object, path: str, agents: int) -> tuple[LargeClaim, ...]:
     """The claims, their form checked; raises `Malformed`."""
 
-    def read(name: str, verdict: str, witness: object, here: str) -> Nothing | GraphDefect:
-        if (name, verdict) == ("graph-assumption", "refuted"):
-            return cast(GraphDefect, read_witness(name, verdict, witness, here, agents))
+    def read(name: str, verdict: str, witness: object, here: str) -> Witness:
+        by_matrices = agents <= MOST_BY_MATRICES and verdict in ("proved", "refuted") and witness != {}
+        if by_matrices or (name, verdict) == ("graph-assumption", "refuted"):
+            return read_witness(name, verdict, witness, here, agents)
         fields(witness, here, ())
         return Nothing()
 

@@ -17,6 +17,7 @@ from fomas_verify.kernel.horizon import Horizon, check_horizon
 from fomas_verify.network.large import TooManyEdgesError, graph_facts, need_scale
 from fomas_verify.network.quotients import image, quotients
 from fomas_verify.prover.large_claims import Start, decide_all, first_failure
+from fomas_verify.prover.large_matrices import decided_by_matrices
 from fomas_verify.prover.limits import memory_for_factors
 from fomas_verify.prover.prove import (
     DEFAULT_DIGITS,
@@ -115,7 +116,8 @@ def prove_large(
     Returns
     -------
     LargeProof
-        Verdicts and enclosures; rigorous. Where bounds decide a claim neither way it is undecided, even if it is true.
+        Verdicts and enclosures; rigorous. Where bounds decide a claim neither way it is undecided, even if it is true;
+        of at most 200 agents matrices decide what bounds do not.
 
     Raises
     ------
@@ -130,6 +132,7 @@ def prove_large(
     loop = _loop(design, memory_for_factors() if memory is None else memory)
     start = _start(design) if loop.assumption1 and design.x0 is not None else Start()
     decisions = decide_all(loop, start, lambda name: only is None or name in only)
+    decisions = decided_by_matrices(design, decisions)
     bits = min(value_bits(digits, loop.mu(64).upper, loop.degree_max), MOST_BITS)
     values = _values(loop, bits)
     compare_with_mpmath(design, values, min(digits, DEFAULT_DIGITS))

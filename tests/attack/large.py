@@ -17,6 +17,7 @@ from random import Random
 
 import numpy as np
 
+from tests.checker.builder import lyapunov
 from tests.checker.large_networks import (
     CLEAR,
     IDS,
@@ -32,6 +33,7 @@ from tests.checker.large_networks import (
     file_graph,
     gain,
     joined,
+    laplacian,
     slow_vector,
 )
 
@@ -66,6 +68,7 @@ FAMILIES: dict[str, tuple[Json, int]] = {
     "path": ({"family": "path"}, 25),
 }
 TORUS: Json = {"family": "torus", "shape": [4, 4]}
+BY_EIGENVALUES = ("perron-eigenvalues", "control-bounded", "average-consensus")
 GAINS = ("1/100", "1/9", "3/10", "1/2", "6/5")
 Known = dict[str, bytes]
 """Edge lists by the digest that a certificate names."""
@@ -83,6 +86,9 @@ def golden() -> dict[str, bytes]:
         found |= {f"{name}, mu = {mu}": _document(graph, family_edges(graph, n), n, mu) for mu in GAINS}
     for name, (edges, n) in LISTS.items():
         found |= {f"{name}, mu = {mu}": _document(file_graph(edge_list(edges)), edges, n, mu) for mu in GAINS}
+    for name, (edges, n) in LISTS.items():
+        for mu in GAINS:
+            found[f"{name} by matrices, mu = {mu}"] = _by_matrices(found[f"{name}, mu = {mu}"], edges, n, mu)
     found["by gamma and h"] = _document(TORUS, family_edges(TORUS, 16), 16, "", gamma="3/20", h="17/20")
     return {name: json.dumps(_as_far_as_decided(document)).encode() for name, document in found.items()}
 
@@ -102,6 +108,22 @@ def _as_far_as_decided(document: Json) -> Json:
         if part in document
     }
     return document | kept | {"claims": claims}
+
+
+def _by_matrices(document: Json, edges: Edges, n: int, mu: str) -> Json:
+    """With the witness of a small design for each claim that the eigenvalues of P decide."""
+    given = [[i, j, str(w)] for i, j, w in edges]
+    eigenvalues = np.linalg.eigvals(np.eye(n) - float(Fraction(mu)) * laplacian(edges, n))
+    sums = ((k, abs((eigenvalues**k).sum() - 1)) for k in range(1, 400))
+    witnesses: dict[str, Json] = {"inapplicable": {}, "unclear": {}}
+    witnesses["refuted"] = {"mu": mu, "power": next((k for k, x in sums if x > n - 1 + CLEAR), 1)}
+    if all(abs(x) < 1 for x in sorted(eigenvalues, key=lambda x: abs(x - 1))[1:]):
+        witnesses["proved"] = {"mu": mu, "Q": lyapunov(given, n, Fraction(mu))}
+    return document | {
+        "claims": [
+            c | {"witness": witnesses[c["verdict"]]} if c["id"] in BY_EIGENVALUES else c for c in document["claims"]
+        ]
+    }
 
 
 def _document(graph: Json, edges: Edges, n: int, mu: str, **numbers: str) -> Json:

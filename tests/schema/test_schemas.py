@@ -422,6 +422,17 @@ LARGE = [
     large(LISTED, 2, networks.claim("graph-assumption", "refuted", **DEFECT)) | {"spectrum": {"vectors": [[1, -1]]}},
     large(LISTED, 4) | {"spectrum": {"lambda2_lower": "1/2", "lambda_max_upper": "2", "solver": "x"}},
     large(LISTED, 4, networks.claim("control-bounded", "inapplicable")) | {"spectrum": {"sigma_upper": "1/2"}},
+    large(LISTED, 200, networks.claim("average-consensus", "refuted", mu="1/10", power=8)),
+    large(LISTED, 3, networks.claim("control-bounded", "proved", mu="1/10", Q=[["1"], ["0", "1"]])),
+    large({"family": "path"}, 9, networks.claim("trajectory-norm-bound", "refuted", k=3), x0=["1"] * 9),
+]
+WITNESSED = networks.claim("average-consensus", "refuted", mu="1/10", power=8)
+NOT_LARGE = [
+    large(LISTED, 201, WITNESSED),
+    large(LISTED, 200, WITNESSED | {"verdict": "undecided"}),
+    large(LISTED, 200, networks.claim("average-consensus", "undecided", bits=8)),
+    large(LISTED, 200, networks.claim("gain-bound", "proved", mu="1/10")),
+    large(LISTED, 200, WITNESSED | {"witness": []}),
 ]
 
 
@@ -429,6 +440,12 @@ LARGE = [
 def test_both_accept_a_certificate_of_a_large_network(document: dict[str, Any]) -> None:
     assert certificate_refusal(document) == ""
     CERTIFICATES.validate(document)
+
+
+@pytest.mark.parametrize("document", NOT_LARGE)
+def test_both_refuse_a_witness_that_does_not_belong_there(document: dict[str, Any]) -> None:
+    assert certificate_refusal(document) != ""
+    assert not CERTIFICATES.is_valid(document)
 
 
 def test_mutants_of_certificates_of_large_networks() -> None:
