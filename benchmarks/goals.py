@@ -8,7 +8,7 @@ import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
-from benchmarks import simulate, sweep, switching
+from benchmarks import large, simulate, sweep, switching
 from benchmarks.designs import weighted_digraph
 from benchmarks.gate import COUNT as GATE_COUNT
 from benchmarks.gate import rows as gate_rows
@@ -38,6 +38,7 @@ def rows(folder: Path) -> Iterator[str]:
     yield from (line(*row) for row in simulate.rows())
     yield from (line(*row) for row in gate_rows(GATE_COUNT, 2))
     yield from (line(*row) for row in sweep.rows())
+    yield from (line(*row) for row in large.rows())
 
 
 def paper_rows(folder: Path) -> Iterator[str]:

@@ -66,6 +66,9 @@ def expander(agents: int, cycles: int) -> Any:
     return found.tocsr()
 
 
+MOST_CHECKED = 100_000
+"""Agents of which `check --numeric` is measured: of a million it takes more than ten minutes."""
+
 CASES: dict[str, tuple[Callable[[], Any], str]] = {
     "torus of 99,856 agents": (lambda: torus(316), "below 3 GB"),
     "weighted digraph of 20,000 agents": (lambda: expander(20_000, 3), "below 180 s, 6 GB"),
@@ -91,13 +94,14 @@ def rows(names: list[str] | None = None) -> Iterator[tuple[str, str, str]]:
             certificate = Path(folder, "certificate.json")
             prove = run(["-m", "fomas_verify", "prove", str(design), "-o", str(certificate)], accepted=(0, 1))
             yield f"prove, {name}", shown(prove), goal
-            yield "  lambda2's enclosure, relative width", f"{width(certificate):.2g}", "below 1e-6"
+            yield "  its enclosure of lambda2, relative width", f"{width(certificate):.2g}", "below 1e-6"
             if name == FIRST:
                 peer = run(["-c", EIGSH, str(graph)])
                 yield "  eigsh, shift-invert, nothing proved", shown(peer), ""
                 yield "  prove / eigsh, wall", f"{prove.wall / peer.wall:.2g}", "at most 2"
-            check = ["-m", "fomas_verify", "check", "--numeric", str(certificate)]
-            yield "  check --numeric", shown(run(check)), ""
+            if matrix.shape[0] <= MOST_CHECKED:
+                check = ["-m", "fomas_verify", "check", "--numeric", str(certificate)]
+                yield "  check --numeric", shown(run(check)), ""
 
 
 def shown(cost: Cost) -> str:

@@ -28,19 +28,17 @@ class Cost:
 def run(arguments: list[str], *, accepted: tuple[int, ...] = (0,), one_thread: bool = False) -> Cost:
     """The cost of one run of this interpreter with these arguments; another exit status ends the benchmark."""
     environment = {**os.environ, **ONE_THREAD} if one_thread else None
-    with tempfile.TemporaryFile() as out:
+    with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as errors:
         start = time.perf_counter()
-        process = subprocess.Popen(
-            [sys.executable, *arguments], stdout=out, stderr=subprocess.PIPE, env=environment
-        )  # fmt: skip
+        process = subprocess.Popen([sys.executable, *arguments], stdout=out, stderr=errors, env=environment)
         _, status, usage = os.wait4(process.pid, 0)
         wall = time.perf_counter() - start
         process.returncode = os.waitstatus_to_exitcode(status)
-        message = process.stderr.read().decode() if process.stderr else ""
-        if process.returncode not in accepted:
-            raise SystemExit(f"benchmark: {' '.join(arguments)} ended with {process.returncode}: {message}")
         out.seek(0)
-        printed = out.read().decode()
+        errors.seek(0)
+        printed, message = out.read().decode(), errors.read().decode()
+    if process.returncode not in accepted:
+        raise SystemExit(f"benchmark: {' '.join(arguments)} ended with {process.returncode}: {message}")
     return Cost(usage.ru_utime + usage.ru_stime, wall, usage.ru_maxrss / 1024, printed)
 
 
