@@ -94,5 +94,9 @@ $(DEV): requirements/dev.txt requirements/peers.txt $(BASE)
 	@$(PIP) install --require-hashes --no-deps --no-build-isolation --requirement requirements/peers.txt 2>/dev/null \
 	    || echo "left out: comparison with fodeint (its source could not be had or built)"
 
+$(VENV)/guided.done: requirements/guided.txt $(DEV)
+	@$(PIP) install --require-hashes --no-deps --requirement requirements/guided.txt
+	@touch $@
+
 $(VENV)/bench.done: requirements/bench.txt $(DEV)
 	$(call install,bench)

@@ -32,7 +32,8 @@ _HEAD = """# Licences
 fomas_verify is under BSD-3-Clause and contains no other package. Its wheel asks for those below; each stays under its
 own licence. *Weak copyleft* (LGPL, MPL) ends at that package's files and asks nothing of what imports it. GPL stands in
 the last row only: a program that tests compare results with, and that nothing imports otherwise. Wheels of compiled
-packages may bundle libraries of their own (OpenBLAS, GMP, FLINT); their files say which.
+packages may bundle libraries of their own (OpenBLAS, GMP, FLINT); their files say which. atheris (Apache-2.0) guides
+the fuzzer where it is asked for, and is installed for nothing else.
 
 Written by `python -m tools.licences` from the lock files and the metadata of what is installed; a test compares it with
 both.

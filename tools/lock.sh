@@ -17,6 +17,8 @@ lock dev.txt --extra dev
 lock base.txt --extra report --constraint requirements/dev.txt
 lock bench.txt --extra dev --extra region --constraint requirements/dev.txt
 
-uv pip compile --group peers --no-deps --output-file requirements/peers.txt --quiet --upgrade \
-    --universal --python-version 3.11 --generate-hashes --no-header --no-config \
-    --no-emit-index-url --no-emit-find-links
+for group in peers guided; do
+    uv pip compile --group "$group" --no-deps --output-file "requirements/$group.txt" --quiet --upgrade \
+        --universal --python-version 3.11 --generate-hashes --no-header --no-config \
+        --no-emit-index-url --no-emit-find-links
+done

@@ -34,7 +34,7 @@ def project(checkout: Path) -> dict:
     return tomllib.loads((checkout / "pyproject.toml").read_text())
 
 
-@pytest.mark.parametrize("name", [*LOCKS, PEERS])
+@pytest.mark.parametrize("name", [*LOCKS, PEERS, "guided.txt"])
 def test_every_entry_is_pinned_by_hash(checkout: Path, name: str) -> None:
     assert unpinned((checkout / "requirements" / name).read_text()) == []
 
