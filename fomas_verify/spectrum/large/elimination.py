@@ -18,9 +18,14 @@ if TYPE_CHECKING:
 
 _NARROW = 64
 
+_PIVOTED = 256
+"""So many of the last columns of a range are taken by their pivots, where the range is not positive definite."""
 
-def eliminated(matrix: Any, ranges: Fronts, most: int) -> tuple[Any, NDArray[Any]] | None:
-    """(U as csc, d), d with at most `most` negative entries; None where there would be more, or one is 0.
+
+def eliminated(matrix: Any, ranges: Fronts, most: int) -> tuple[Any, NDArray[Any], NDArray[Any]] | None:
+    """(U as csc, d, order), d with at most `most` negative entries; None where there would be more, or one is 0.
+
+    U diag(d) U^T is near the matrix with its rows and columns in that order, which moves columns within a range alone.
 
     Parameters
     ----------
@@ -31,15 +36,16 @@ def eliminated(matrix: Any, ranges: Fronts, most: int) -> tuple[Any, NDArray[Any
     import numpy as np
     from scipy.sparse import csc_array
 
-    work = _Elimination(matrix, ranges, most)
+    n = matrix.shape[0]
+    work = _Elimination(matrix, ranges, most, np.arange(n))
     for start, end in pairwise(ranges.edges):
         if not work.front(start, end):
             return None
-    n = matrix.shape[0]
     pointers = np.concatenate([[0], np.cumsum(np.concatenate(work.lengths))])
-    indices, values = np.concatenate(work.rows), np.concatenate(work.values)
+    places = np.argsort(work.order).astype(np.int32)
+    indices, values = places[np.concatenate(work.rows)], np.concatenate(work.values)
     lower = csc_array((values, indices, pointers), shape=(n, n))
-    return lower, np.concatenate(work.pivots)
+    return lower, np.concatenate(work.pivots), work.order
 
 
 @dataclass(eq=False)
@@ -48,6 +54,7 @@ class _Elimination:
 
     Attributes
     ----------
+    order : of the columns
     left : what each range's children leave: rows, and a symmetric matrix on them
     lengths, rows, values, pivots : of the columns of the factor, range by range
     """
@@ -55,6 +62,7 @@ class _Elimination:
     matrix: Any
     ranges: Fronts
     most: int
+    order: NDArray[Any]
     left: dict[int, list[tuple[Any, Any]]] = field(default_factory=dict)
     lengths: list[Any] = field(default_factory=list)
     rows: list[Any] = field(default_factory=list)
@@ -70,7 +78,7 @@ class _Elimination:
         found = _panel(front, width)
         if found is None:
             return False
-        scaled, pivots = found
+        scaled, pivots, order = found
         self.most -= int((pivots < 0).sum())
         if self.most < 0 or not np.isfinite(scaled).all():
             return False
@@ -79,7 +87,8 @@ class _Elimination:
         if len(rest):
             left = front[width:, width:] - (below * np.sign(pivots)) @ below.T
             self.left.setdefault(int(self.ranges.of_column[rest[0]]), []).append((rest, left))
-        self._keep(rows, scaled / np.sqrt(abs(pivots)), pivots)
+        self.order[start:end] = start + order
+        self._keep(np.concatenate([self.order[start:end], rest]), scaled / np.sqrt(abs(pivots)), pivots)
         return True
 
     def _assembled(self, start: int, end: int) -> tuple[Any, Any]:
@@ -113,39 +122,60 @@ class _Elimination:
         self.pivots.append(pivots)
 
 
-def _panel(front: Any, width: int) -> tuple[Any, Any] | None:
-    """(B, d) with the first columns of `front` near ``B diag(sign d) B_1^T``, B_1 the lower triangular top of B."""
+def _panel(front: Any, width: int) -> tuple[Any, Any, Any] | None:
+    """(B, d, order): the first columns of `front`, in that order, are near ``B diag(sign d) B_1^T``, B_1 the lower
+    triangular top of B.
+    """
     import numpy as np
     from scipy.linalg import solve_triangular
 
-    signs = np.ones(width)
+    signs, order, below = np.ones(width), np.arange(width), front[width:, :width]
     try:
         corner = np.linalg.cholesky(front[:width, :width])
     except np.linalg.LinAlgError:
         found = _indefinite(front[:width, :width])
         if found is None:
             return None
-        corner, signs = found
+        corner, signs, order = found
+        below = below[:, order]
     # Rows below: X diag(signs) corner^T = front. Most ranges are narrow: there scipy's BLAS, which is another than
     # numpy's, would have its threads wait for those of the other.
     if width <= _NARROW:
-        below = front[width:, :width] @ np.linalg.inv(corner).T
+        below = below @ np.linalg.inv(corner).T
     else:
-        below = solve_triangular(corner, front[width:, :width].T, lower=True, check_finite=False).T
-    return np.concatenate([corner, below * signs]), signs * corner.diagonal() ** 2
+        below = solve_triangular(corner, below.T, lower=True, check_finite=False).T
+    return np.concatenate([corner, below * signs]), signs * corner.diagonal() ** 2, order
 
 
-def _indefinite(square: Any) -> tuple[Any, Any] | None:
-    """(C, s), C lower triangular, with the matrix near ``C diag(s) C^T``, s = 1 or -1; None at a pivot 0."""
+def _indefinite(square: Any) -> tuple[Any, Any, Any] | None:
+    """(C, s, order): the matrix in that order is near ``C diag(s) C^T``, C lower triangular, s = 1 or -1.
+
+    None at a pivot 0. Among the last columns the largest pivot comes first: one near 0 would make C large.
+    """
     import numpy as np
+    from scipy.linalg import solve_triangular
 
-    work, width = np.tril(square), len(square)
-    signs = np.ones(width)
-    for k in range(width):
-        pivot = work[k, k]
+    width = len(square)
+    first = max(width - _PIVOTED, 0)
+    try:
+        head = np.linalg.cholesky(square[:first, :first])
+    except np.linalg.LinAlgError:
+        first, head = 0, square[:0, :0]
+    cross = solve_triangular(head, square[:first, first:], lower=True, check_finite=False).T
+    left = np.tril(square[first:, first:]) - np.tril(cross @ cross.T)
+    left += np.tril(left, -1).T
+    corner, signs, order = np.zeros((width, width)), np.ones(width), np.arange(width)
+    corner[:first, :first] = head
+    tail, moved = corner[first:, first:], order[first:]
+    for k in range(width - first):
+        best = k + int(abs(left.diagonal()[k:]).argmax())
+        for rows in (left, left.T, tail, cross, moved):
+            rows[[k, best]] = rows[[best, k]]
+        pivot = left[k, k]
         if pivot == 0 or not np.isfinite(pivot):
             return None
-        signs[k] = np.sign(pivot)
-        work[k:, k] /= signs[k] * np.sqrt(abs(pivot))
-        work[k + 1 :, k + 1 :] -= np.tril(np.outer(signs[k] * work[k + 1 :, k], work[k + 1 :, k]))
-    return work, signs
+        signs[first + k] = np.sign(pivot)
+        tail[k:, k] = left[k:, k] * (signs[first + k] / np.sqrt(abs(pivot)))
+        left[k + 1 :, k + 1 :] -= signs[first + k] * np.outer(tail[k + 1 :, k], tail[k + 1 :, k])
+    corner[first:, :first] = cross
+    return corner, signs, order

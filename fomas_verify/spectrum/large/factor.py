@@ -84,6 +84,12 @@ class SparseFactors:
         found = eliminated(moved, self.order.fronts, most)
         if found is None or (found[1] == 0).any() or int((found[1] < 0).sum()) > most:
             return None
-        error = residual_norm(moved, *found, self.order.fronts)
+        lower, pivots, order = found
+        if not np.array_equal(order, np.arange(len(order))):
+            if not np.array_equal(np.sort(order), np.arange(len(order))):
+                return None
+            moved = moved[order][:, order].tocsc()
+            moved.sort_indices()
+        error = residual_norm(moved, lower, pivots, self.order.fronts)
         # The shift was added to the diagonal with one rounding.
         return (error + near.error + 2 * U * (near.largest + abs(shift))) * SLACK if np.isfinite(error) else None

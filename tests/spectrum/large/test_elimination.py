@@ -5,6 +5,7 @@ import pytest
 from scipy.sparse import csc_array, random_array
 
 from fomas_verify.spectrum.large.elimination import eliminated
+from fomas_verify.spectrum.large.fronts import Fronts
 from fomas_verify.spectrum.large.ordering import elimination_order
 
 
@@ -22,7 +23,9 @@ def test_the_product_is_the_matrix_and_the_signs_are_its_inertia(seed: int) -> N
     negative = int((np.linalg.eigvalsh(moved) < 0).sum())
     found = eliminated(matrix, order.fronts, negative)
     assert found is not None
-    lower, pivots = found[0].toarray(), found[1]
+    lower, pivots, moves = found[0].toarray(), found[1], found[2]
+    moved = moved[np.ix_(moves, moves)]
+    assert (order.fronts.of_column[moves] == order.fronts.of_column).all()
     assert (np.diag(lower) == 1).all()
     assert (np.triu(lower, 1) == 0).all()
     assert int((pivots < 0).sum()) == negative
@@ -37,3 +40,17 @@ def test_a_pivot_0_is_no_factor() -> None:
         matrix = csc_array(np.array(rows) + 0.0)
         order = elimination_order(csc_array(np.array(rows) + 3 * np.eye(2)))
         assert eliminated(matrix, order.fronts, 2) is None
+
+
+def test_a_small_pivot_is_not_taken_first() -> None:
+    """Column 300 of 400 would have the pivot 1e-9, and the factor entries of 1e9."""
+    n, small = 400, 1e-9
+    whole = np.diag(np.linspace(1, 2, n))
+    whole[300, 300] = small
+    whole[300, 301:], whole[301:, 300] = 0.5, 0.5
+    found = eliminated(csc_array(whole), Fronts([0, n], np.zeros(n, dtype=int)), 1)
+    assert found is not None
+    lower, pivots, moves = found[0].toarray(), found[1], found[2]
+    assert abs(lower).max() < 2
+    assert (pivots < 0).sum() == 1
+    np.testing.assert_allclose(lower @ np.diag(pivots) @ lower.T, whole[np.ix_(moves, moves)], atol=1e-14)

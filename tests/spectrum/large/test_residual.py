@@ -122,7 +122,7 @@ def test_what_is_no_factor_has_no_bound(damage: str) -> None:
     assert bounded(matrix, lower, pivots) == float("inf")
 
 
-@pytest.mark.parametrize("damage", ["entry", "pivot", "sign", "another", "nothing"])
+@pytest.mark.parametrize("damage", ["entry", "pivot", "sign", "another", "nothing", "order", "twice"])
 def test_a_factor_that_is_wrong_shows_nothing_false(monkeypatch: pytest.MonkeyPatch, damage: str) -> None:
     """A bound from a damaged factor is still below the truth, or there is none."""
     rng = np.random.default_rng(3)
@@ -140,19 +140,23 @@ def test_a_factor_that_is_wrong_shows_nothing_false(monkeypatch: pytest.MonkeyPa
     assert way.second_at_least(near, truth * 1.1) is None
     seen = []
 
-    def damaged(moved: csc_array, fronts: Fronts, most: int) -> tuple[csc_array, np.ndarray]:
+    def damaged(moved: csc_array, fronts: Fronts, most: int) -> tuple[csc_array, np.ndarray, np.ndarray]:
         if damage == "another":
             moved = csc_array(moved + np.diag(np.full(30, 10.0)))
-        lower, pivots = real(moved, fronts, 30)
+        lower, pivots, order = real(moved, fronts, 30)
         k = {"entry": 0, "pivot": 3, "sign": int(np.argmin(pivots))}.get(damage)
         if damage == "entry":
             lower.data[-2] += 0.5
+        elif damage == "order":
+            order = np.roll(order, 1)
+        elif damage == "twice":
+            order[:] = order[0]
         elif damage == "nothing":
             lower, pivots = csc_array(np.eye(30)), np.ones(30)
         elif k is not None:
             pivots[k] = abs(pivots[k]) * (1 if damage == "sign" else 1.01)
         seen.append((pivots < 0).sum())
-        return lower, pivots
+        return lower, pivots, order
 
     monkeypatch.setattr(factor, "eliminated", damaged)
     for shift in (truth * 0.9, truth * 1.1, truth * 3):
