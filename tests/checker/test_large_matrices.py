@@ -74,11 +74,17 @@ def test_one_initial_state() -> None:
     assert status("1", "trajectory-norm-bound", "refuted", {"k": 30}) == "accepted"
 
 
+def ring(agents: int) -> Edges:
+    return sorted((i, i % agents + 1, Fraction(1)) for i in range(1, agents + 1))
+
+
 def test_beyond_two_hundred_agents_there_are_no_matrices() -> None:
-    ring: Edges = [(i, i % 201 + 1, Fraction(1)) for i in range(1, 202)]
-    assert status("2", "average-consensus", "refuted", edges=sorted(ring), agents=201) == "undecided"
+    """The trace of P on the differences is N - 1 - 2 N."""
+    outside = {"mu": "2", "power": 1}
+    assert status("2", "average-consensus", "refuted", outside, edges=ring(200), agents=200) == "accepted"
+    assert status("2", "average-consensus", "refuted", edges=ring(201), agents=201) == "undecided"
     with pytest.raises(Malformed, match=r"claims\[0\].witness: unknown key 'mu'"):
-        status("2", "average-consensus", "refuted", {"mu": "2", "power": 1}, edges=ring, agents=201)
+        status("2", "average-consensus", "refuted", outside, edges=ring(201), agents=201)
 
 
 @pytest.mark.parametrize(
