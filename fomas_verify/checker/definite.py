@@ -16,6 +16,7 @@ Matrix = Sequence[Sequence[int]]
 Ring = TypeVar("Ring", int, Element)
 
 QUICK_BITS = (256, 1024)
+MAX_QUICK_WORK = 2**43
 MAX_EXACT_WORK = 2**36
 MAX_WIDE_WORK = 2**50
 
@@ -32,22 +33,32 @@ def least_sign(rows: Matrix) -> int:
         sign = quick_sign(rows, bits)
         if sign is not None:
             return sign
-    size = max(max(abs(entry) for entry in row) for row in rows).bit_length()
-    n = len(rows)
-    # The minors have n times as many bits; where these are many, a product or a quotient of two takes their square.
-    if n**4 * size > MAX_EXACT_WORK or n**5 * size**2 > MAX_WIDE_WORK:
-        raise Undecided("a singular or nearly singular matrix is beyond the work allowed")
+    limit_elimination(len(rows), max(max(abs(entry) for entry in row) for row in rows).bit_length(), 1)
     return exact_sign(rows, 1, lambda entry: (entry > 0) - (entry < 0))
+
+
+def limit_elimination(n: int, size: int, products: int) -> None:
+    """Raise `Undecided` if `exact_sign` of n rows is beyond the work allowed.
+
+    `size` is of the entries, in bits; a product of two entries takes `products` of integers. The minors have n times as
+    many bits; where these are many, a product or a quotient of two takes their square.
+    """
+    if products * n**4 * size > MAX_EXACT_WORK or products * n**5 * size**2 > MAX_WIDE_WORK:
+        raise Undecided("a singular or nearly singular matrix is beyond the work allowed")
 
 
 def quick_sign(rows: Matrix, bits: int, signs: tuple[int, ...] = (1, -1)) -> int | None:
     """1 or -1 if the least eigenvalue is certainly positive or negative, else None; only `signs` are looked for.
+
+    None also where that is beyond the work allowed.
 
     With B the matrix scaled to diagonal entries in [1, 4) (a congruence: signs stay) and c > 0:
     if B - cI = L D L^T + E with D > 0 and norm E <= c, then B >= L D L^T > 0. If a leading block of B + cI is
     L D L^T + E with a negative entry in D and norm E <= c, then x^T B x < 0 for x = L^-T e_k.
     E is exactly what the divisions of the factorisation leave, together with the rounding of B.
     """
+    if len(rows) ** 3 * bits**2 > MAX_QUICK_WORK:
+        return None
     diagonal = [row[-1] for row in rows]
     if min(diagonal) <= 0:
         return -1 if min(diagonal) < 0 else None

@@ -13,12 +13,14 @@ from stat import S_ISREG
 from typing import BinaryIO
 
 from fomas_verify.checker.families import Family
-from fomas_verify.checker.network import MAX_EDGES, Network
+from fomas_verify.checker.network import Network
 from fomas_verify.checker.ruling import Undecided
 from fomas_verify.checker.text import Malformed
 
 MAX_FILE_BYTES = 2**29
 MAX_DENOMINATOR_BITS = 2**12
+MAX_FAMILY_EDGES = 2**22
+"""A few bytes ask for them."""
 _CHUNK = 2**20
 _LINE = 8192
 _EDGE = re.compile(rb"([1-9][0-9]{0,7}) ([1-9][0-9]{0,7}) ([1-9][0-9]{0,3999})(?:/([1-9][0-9]{0,3999}))?")
@@ -121,8 +123,8 @@ def network_of(family: Family) -> Network:
     Undecided
         If it has more edges than are built.
     """
-    if family.edge_count > MAX_EDGES:
-        raise Undecided(f"more than {MAX_EDGES} edges are beyond the work allowed")
+    if family.edge_count > MAX_FAMILY_EDGES:
+        raise Undecided(f"more than {MAX_FAMILY_EDGES} edges are beyond the work allowed")
     n = family.agents
     codes = sorted({source * n + target for source, target in family.pairs()})
     sources, targets = array("q", (code // n for code in codes)), array("q", (code % n for code in codes))

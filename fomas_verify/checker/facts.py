@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import cast
 
-from fomas_verify.checker.definite import exact_sign, least_sign, quick_sign
+from fomas_verify.checker.definite import exact_sign, least_sign, limit_elimination, quick_sign
 from fomas_verify.checker.designs import Design
 from fomas_verify.checker.field import Root
 from fomas_verify.checker.graph import Graph, Rows
@@ -131,6 +131,8 @@ class Facts:
         if root.degree**2 * self.design.agents**3 > MAX_FIELD_WORK:
             raise Undecided("elimination over the number field is beyond the work allowed")
         rows = self.graph.form_over(root, gram, symmetric, square)
+        size = max(max(map(abs, root.modulus)).bit_length(), *(entry.bits for row in rows for entry in row))
+        limit_elimination(self.design.agents, size, root.degree**2)
         return exact_sign(rows, root.element([Fraction(1)], 1), lambda entry: entry.sign())
 
 

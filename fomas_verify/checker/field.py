@@ -124,6 +124,11 @@ class Element:
     root: Root
     coefficients: Poly
 
+    @property
+    def bits(self) -> int:
+        """Of the longest coefficient."""
+        return max(map(abs, self.coefficients), default=0).bit_length()
+
     def __sub__(self, other: Element) -> Element:
         a, b = self.coefficients, other.coefficients
         length = max(len(a), len(b))

@@ -18,6 +18,9 @@ from fomas_verify.checker.resolvent import MAX_SAMPLES, Memory
 from fomas_verify.checker.ruling import Undecided
 
 MAX_SAMPLE_WORK = 2**36
+MAX_SAMPLE_BITS = 5 * 2**19
+"""20 480 samples at 128 bits, and fewer at more: the memory of n samples takes n^2 products."""
+
 GUARD = 64
 
 
@@ -81,7 +84,8 @@ class Samples:
 
     def limit(self, n: int) -> None:
         """Raise `Undecided` if n samples are beyond the work allowed."""
-        if n > MAX_SAMPLES or n * self.agents**3 * self.bits > MAX_SAMPLE_WORK:
+        beyond = n * self.bits > MAX_SAMPLE_BITS or n * self.agents**3 * self.bits > MAX_SAMPLE_WORK
+        if n > MAX_SAMPLES or beyond:
             raise Undecided(f"{n} samples of {self.agents} agents at {self.bits} bits are beyond the work allowed")
 
     def _plus(self, ball: Ball, lower: int, upper: int) -> Ball:

@@ -103,7 +103,7 @@ def power_trace_beyond(rows: Rows, f: int, n: int, ones: int = 0) -> int | None:
             return None
         scaled = [[divmod(entry << width, f) for entry in row] for row in rows]
         inexact = any(rest for row in scaled for _, rest in row)
-        base = Scaled([[entry for entry, _ in row] for row in scaled], -width, int(inexact))
+        base = _fitted([[entry for entry, _ in row] for row in scaled], -width, int(inexact), width)
         result = _power(base, n, width)
         if result is None:
             return None
@@ -156,10 +156,15 @@ def _product(a: Scaled, b: Scaled, width: int) -> Scaled:
     norm_a = max(sum(map(abs, row)) for row in a.rows)
     norm_b = max(sum(map(abs, column)) for column in zip(*b.rows, strict=True))
     error = norm_a * b.error + a.error * norm_b + len(rows) * a.error * b.error
+    return _fitted(rows, a.exponent + b.exponent, error, width)
+
+
+def _fitted(rows: Rows, exponent: int, error: int, width: int) -> Scaled:
+    """The same with entries of `width` bits, rounded down."""
     shift = max(_bits(rows) - width, 0)
     inexact = any(entry & ((1 << shift) - 1) for row in rows for entry in row)
     rounded = [[entry >> shift for entry in row] for row in rows]
-    return Scaled(rounded, a.exponent + b.exponent + shift, -(-error >> shift) + inexact)
+    return Scaled(rounded, exponent + shift, -(-error >> shift) + inexact)
 
 
 def _times(a: Rows, b: Rows) -> Rows:

@@ -9,14 +9,18 @@ from operator import mul
 
 from fomas_verify.checker.ball import Ball, fitted
 from fomas_verify.checker.designs import State
-from fomas_verify.checker.graph import Graph, Rows, common_denominator
+from fomas_verify.checker.graph import MAX_MATRIX_BITS, Graph, Rows, common_denominator
 from fomas_verify.checker.loop import Loop
+from fomas_verify.checker.ruling import Undecided
 from fomas_verify.checker.samples import GUARD, Samples
 
 
 def error_columns(graph: Graph, x0: State) -> tuple[Rows, int]:
     """(E, q) with L x_0 = E / q, one list a component of x_0."""
-    q = common_denominator([entry for row in x0 for entry in row], len(x0))
+    entries = [entry for row in x0 for entry in row]
+    q = common_denominator(entries, len(x0))
+    if (q.bit_length() + max(abs(x.numerator) for x in entries).bit_length()) * len(entries) > MAX_MATRIX_BITS:
+        raise Undecided("an initial state with so large a common denominator is beyond the work allowed")
     states = [[int(entry * q) for entry in column] for column in zip(*x0, strict=True)]
     return [[sum(map(mul, row, state)) for row in graph.laplacian] for state in states], q * graph.denominator
 

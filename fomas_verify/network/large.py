@@ -27,7 +27,9 @@ if TYPE_CHECKING:
 MOST_AGENTS = 1 << 22
 """Of a graph that is given by its edges."""
 MOST_EDGES = 1 << 24
-"""No more are built, or written into an edge list."""
+"""No more are written into an edge list."""
+MOST_FAMILY_EDGES = 1 << 22
+"""No more are built of a family, which a few words ask for."""
 
 _BLOCK = 1 << 16
 
@@ -83,12 +85,13 @@ class LargeGraph:
         Raises
         ------
         TooManyEdgesError
-            There are more than 2^24.
+            There are more than 2^24, or 2^22 of a family.
         MissingExtraError
             numpy or scipy is not installed.
         """
-        if self.edge_count > MOST_EDGES:
-            raise TooManyEdgesError(f"expected at most {MOST_EDGES} edges to build, got {self.edge_count}")
+        most = MOST_EDGES if self.family is None else MOST_FAMILY_EDGES
+        if self.edge_count > most:
+            raise TooManyEdgesError(f"expected at most {most} edges to build, got {self.edge_count}")
         need_scale(self.agents, "numpy", "scipy")
         match self._given:
             case Family() as family:

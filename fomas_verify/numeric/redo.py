@@ -19,6 +19,8 @@ _TRIES = 3
 _MORE = 1.1
 _BEYOND = 2**60
 _MOST_BITS = 500
+_MOST_GAIN = 2**60
+"""Of mu in the matrices' unit: its square is a double."""
 
 
 class Redo:
@@ -52,6 +54,8 @@ class Redo:
         """
         floats = self._of(network)
         if floats is None:
+            return None
+        if mu[1] * floats.unit > _MOST_GAIN:
             return None
         gain = float((mu[0] + mu[1]) / 2 * floats.unit)
         middle = Fraction(gain) / floats.unit

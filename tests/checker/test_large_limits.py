@@ -185,9 +185,9 @@ def test_a_common_denominator_has_4096_bits_at_most(below: int) -> None:
 def test_as_many_edges_of_a_family_are_built_as_allowed(monkeypatch: pytest.MonkeyPatch) -> None:
     for name, agents in (("cycle", 5), ("directed-cycle", 5), ("complete", 4), ("hypercube", 8)):
         family = Family(name, agents, None)
-        monkeypatch.setattr(edge_list, "MAX_EDGES", family.edge_count)
+        monkeypatch.setattr(edge_list, "MAX_FAMILY_EDGES", family.edge_count)
         assert len(network_of(family).sources) == family.edge_count
-        monkeypatch.setattr(edge_list, "MAX_EDGES", family.edge_count - 1)
+        monkeypatch.setattr(edge_list, "MAX_FAMILY_EDGES", family.edge_count - 1)
         with pytest.raises(Undecided, match=f"more than {family.edge_count - 1} edges"):
             network_of(family)
 

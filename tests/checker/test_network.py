@@ -160,7 +160,7 @@ def test_the_denominator_has_its_limit(bits: int, monkeypatch: pytest.MonkeyPatc
 
 
 def test_the_limits_are_those_that_the_format_names() -> None:
-    assert (large_form.MAX_AGENTS, large_form.MAX_EDGES, edge_list.MAX_EDGES) == (2**22, 2**24, 2**24)
+    assert (large_form.MAX_AGENTS, large_form.MAX_EDGES, edge_list.MAX_FAMILY_EDGES) == (2**22, 2**24, 2**22)
     assert (edge_list.MAX_FILE_BYTES, edge_list.MAX_DENOMINATOR_BITS) == (2**29, 2**12)
     assert (network_module.MAX_AGENTS, network_module.MAX_EDGES) == (2**22, 2**24)
     assert large_bounds.MAX_STATE_BITS == 2**30

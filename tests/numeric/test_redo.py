@@ -156,3 +156,10 @@ def test_no_memory_is_no_answer() -> None:
     root = Path(__file__).resolve().parents[2]
     run = subprocess.run([sys.executable, "-c", FILLED_IN], cwd=root, capture_output=True, text=True, check=False)
     assert (run.stdout, run.stderr) == ("None True\n", "")
+
+
+@pytest.mark.parametrize("exponent", [19, 200, 400])
+def test_of_a_gain_beyond_doubles_nothing_is_said(exponent: int) -> None:
+    ring: Edges = [(i, i % 4 + 1, Fraction(1)) for i in range(1, 5)]
+    mu, bound = Fraction(10**exponent), Fraction(10 ** (exponent - 10))
+    assert Redo(MEMORY).sigma_at_most(network(ring, 4), (mu, mu), bound) is None

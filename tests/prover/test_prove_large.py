@@ -119,6 +119,14 @@ def test_what_bounds_leave_open_matrices_decide_up_to_two_hundred_agents(agents:
         assert checked(proof, None).verdicts["average-consensus"] == verdict.value
 
 
+def test_of_a_gain_beyond_doubles_all_is_said_but_by_a_factor() -> None:
+    edges = [[i, i % 201 + 1, 2] for i in range(1, 202)] + [[1, 101], [101, 1]]
+    decisions = prove_large(listed(201, edges, mu="1e400")).decisions
+    assert decisions["gain-bound"].verdict is Verdict.REFUTED
+    assert decisions["control-norm-bound"].verdict is Verdict.REFUTED
+    assert decisions["average-consensus"].verdict is Verdict.UNDECIDED
+
+
 def test_beyond_two_hundred_agents_bounds_alone_decide() -> None:
     edges = [[i, i % 201 + 1] for i in range(1, 202)] + [[1, 101, 1], [101, 1, 1]]
     decisions = prove_large(listed(201, edges, mu="1/2")).decisions
@@ -301,6 +309,8 @@ def test_more_edges_than_are_built_are_refused_and_leave_a_family_decided() -> N
     with pytest.raises(TooManyEdgesError, match="at most 16777216 edges") as caught:
         prove_large(replace(named(graph={"family": "cycle", "agents": 300}), graph=vast))
     assert caught.value.exit_status == 3
+    with pytest.raises(TooManyEdgesError, match="at most 4194304 edges"):
+        _ = large_family("complete", agents=2049).sparse
     full = prove_large(named(graph={"family": "complete", "agents": 5000}, mu="1/10000", x0=[1] * 4999 + [0]))
     assert full.decisions["trajectory-norm-bound"].verdict is Verdict.PROVED
 

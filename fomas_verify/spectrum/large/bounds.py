@@ -181,7 +181,7 @@ def _sigma(
     With g = `gain`, ``1 - sigma^2`` at mu = g / unit is g times the second smallest eigenvalue of the decrease; sigma
     changes by at most norm L <= 2 D times the change of mu.
     """
-    gain = float((mu[0] + mu[1]) / 2 * network.unit)
+    gain = float(min((mu[0] + mu[1]) / 2 * network.unit, Fraction(_MOST_GAIN)))
     if not 0 < gain < _MOST_GAIN:
         return None, None, NO_SIGMA
     if network.decrease_terms() * _BYTES_A_TERM > memory:
