@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 
 FILE = click.Path(path_type=Path)
 FOLDER = click.Path(path_type=Path, exists=True, file_okay=False)
+_NAMED_FILE = re.compile(r"""["']?\bfile["']?\s*[=:]\s*["']([^"'\n]+)["']""")
 
 
 def share(_: click.Context, __: click.Parameter, value: str) -> Fraction:
@@ -116,13 +117,25 @@ def command(
 
 
 def _refuse_overlap(reports: dict[str, Path], found: list[Found]) -> None:
-    """No report may take the place of another or of a design."""
+    """No report may take the place of another, of a design or of its graph file."""
     taken = {os.path.realpath(x): "a design" for x in found if isinstance(x, Path)}
+    if reports:
+        graphs = (path for x in found if isinstance(x, Path) for path in _graph_files(x))
+        taken |= {os.path.realpath(path): "a graph file" for path in graphs}
     for name, path in reports.items():
         real = os.path.realpath(path)
         if real in taken and not (path.exists() and not path.is_file()):
             raise click.BadParameter(f"expected a file of its own, got {path}, {taken[real]}", param_hint=f"--{name}")
         taken[real] = f"that of --{name}"
+
+
+def _graph_files(design: Path) -> list[Path]:
+    """What a design names as a file: those are read by other processes than the one that writes reports."""
+    try:
+        text = design.read_text("utf-8")
+    except (OSError, ValueError):
+        return []
+    return [design.parent / name for name in _NAMED_FILE.findall(text)]
 
 
 def _write(answer: Answer, junit: Path | None, sarif: Path | None, markdown: Path | None) -> list[int]:

@@ -243,8 +243,7 @@ def _outcome(run: Run, limits: Limits) -> tuple[int, str, bool]:
         return (error.code if isinstance(error.code, int) else 1), "", False
     except BaseException as error:
         interrupted = isinstance(error, KeyboardInterrupt)
-        # OpenBLAS interrupts the program where it cannot start its threads; a user interrupts the one that watches.
-        if out_of_memory(error) or (interrupted and limits.memory is not None):
+        if out_of_memory(error) or (limits.memory is not None and _starved(error)):
             return 3, "", True
         if interrupted:
             return 130, "", False
@@ -253,6 +252,15 @@ def _outcome(run: Run, limits: Limits) -> tuple[int, str, bool]:
 
             traceback.print_exception(error)
         return 4, "internal error: " + " ".join(f"{type(error).__name__}: {error}".split()), False
+
+
+def _starved(error: BaseException) -> bool:
+    """Whether this is how a library says, within a limit of memory, that it got none.
+
+    OpenBLAS interrupts the program where it cannot start its threads; a user interrupts the one that watches. Compiled
+    modules return without an exception, and pyarrow has one of its own.
+    """
+    return isinstance(error, KeyboardInterrupt | SystemError) or "launch worker thread" in str(error)
 
 
 def _allowed_outcome(run: Run, limits: Limits) -> tuple[int, str, bool]:

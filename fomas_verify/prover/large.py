@@ -10,7 +10,7 @@ from typing import Any
 
 from fomas_verify.certificate.large_document import edge_list_name, graph_entry, large_certificate_text
 from fomas_verify.claims.verdict import Decision
-from fomas_verify.design import LargeDesign
+from fomas_verify.design import DesignError, LargeDesign
 from fomas_verify.enclosure.interval import Interval
 from fomas_verify.enclosure.real import square_root
 from fomas_verify.kernel.horizon import Horizon, check_horizon
@@ -85,9 +85,12 @@ class LargeProof:
     def files(self, certificate: Path) -> dict[Path, bytes]:
         """What to write: the edge list, where there is one, and then the certificate."""
         edges = self.edge_list
-        name = "" if edges is None else edge_list_name(certificate.name, self.design.graph.digest)
-        beside = {} if edges is None else {certificate.with_name(name): edges}
-        return beside | {certificate: self.certificate(certificate.name).encode()}
+        content = {certificate: self.certificate(certificate.name).encode()}
+        if edges is None or certificate.is_dir():  # which whoever writes refuses
+            return content
+        if certificate.absolute().parts[1:2] == ("dev",) or (certificate.exists() and not certificate.is_file()):
+            raise DesignError(f"{certificate}: expected a file for the certificate, since an edge list lies beside it")
+        return {certificate.with_name(edge_list_name(certificate.name, self.design.graph.digest)): edges, **content}
 
 
 def prove_large(
@@ -117,7 +120,7 @@ def prove_large(
     -------
     LargeProof
         Verdicts and enclosures; rigorous. Where bounds decide a claim neither way it is undecided, even if it is true;
-        of at most 200 agents matrices decide what bounds do not.
+        of at most 200 agents matrices decide consensus where bounds do not.
 
     Raises
     ------

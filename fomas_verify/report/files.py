@@ -23,6 +23,7 @@ from io import FileIO
 from pathlib import Path
 
 from fomas_verify.exact.errors import FomasError
+from fomas_verify.exact.inputs import was_read
 
 _NAME_PART = 40
 _UNFINISHED = re.compile(r"\.(.{0,40})\.[0-9a-f]{16}\.tmp", re.DOTALL)
@@ -157,6 +158,8 @@ def _stage(
         target = place = Path(os.path.realpath(path))
         if _is_a_design(target):
             raise FileExistsError(None, "expected a file of its own, found a design")
+        if was_read(target):
+            raise FileExistsError(None, "expected a file of its own, found the graph that was read")
         _remove_leftovers(target)
     temporary, file = _locked_temporary(place)
     files.enter_context(file)

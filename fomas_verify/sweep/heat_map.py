@@ -18,6 +18,7 @@ from fomas_verify.sweep.errors import SweepError
 from fomas_verify.sweep.plan import Plan
 from fomas_verify.sweep.store import part_name
 from fomas_verify.sweep.summary import VERDICTS
+from fomas_verify.sweep.table import columns_of
 
 FORMATS: Final = ("pdf", "png", "svg")
 KINDS: Final = (*VERDICTS, "mixed", "no verdict")
@@ -107,12 +108,11 @@ def _counted(
     """How many rows of each kind each cell has: an array (y, x, kind), the last kind being no verdict."""
     import numpy as np
     import pyarrow.compute as pc
-    import pyarrow.parquet as pq
 
     shape = len(values[axes[1]]), len(values[axes[0]]), len(VERDICTS) + 1
     counts = np.zeros(np.prod(shape), dtype=np.int64)
     for part in range(plan.parts):
-        table = pq.read_table(folder / part_name(part), columns=["row", f"verdict_{claim}"])
+        table = columns_of(folder / part_name(part), ["row", f"verdict_{claim}"])
         rows = table["row"].to_numpy()
         kinds = pc.index_in(table[f"verdict_{claim}"], value_set=_strings(VERDICTS))
         kind = pc.fill_null(kinds, len(VERDICTS)).to_numpy()

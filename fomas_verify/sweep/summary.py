@@ -10,6 +10,7 @@ from typing import Any
 
 from fomas_verify.sweep.plan import Plan
 from fomas_verify.sweep.store import part_name
+from fomas_verify.sweep.table import columns_of
 
 STATUSES: Mapping[int, str] = {
     0: "every required claim proved",
@@ -39,14 +40,12 @@ class Summary:
 
 def summarize(plan: Plan, folder: Path) -> Summary:
     """Count the rows of all parts, which are there."""
-    import pyarrow.parquet as pq
-
     names = {f"verdict_{claim}": claim for claim in plan.claims}
     statuses: Counter[int] = Counter()
     verdicts: dict[str, Counter[str]] = {claim: Counter() for claim in plan.claims}
     rows = 0
     for part in range(plan.parts):
-        table = pq.read_table(folder / part_name(part), columns=["status", *names])
+        table = columns_of(folder / part_name(part), ["status", *names])
         rows += table.num_rows
         statuses.update(_counts(table["status"]))
         for name, claim in names.items():

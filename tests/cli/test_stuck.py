@@ -5,11 +5,12 @@ import resource
 import subprocess
 import sys
 from collections.abc import Callable
+from pathlib import Path
 from subprocess import CompletedProcess
 
 import pytest
 
-from fomas_verify.cli import stuck
+from fomas_verify.cli import stuck, supervision
 from fomas_verify.cli.stuck import ROOM, SECONDS, Use, Watch, in_vain
 
 SINCE = Use(10.0, 10.0, 1 << 30)
@@ -70,3 +71,25 @@ def test_numpy_ends_in_whatever_memory(verify: Callable[..., CompletedProcess[st
     assert run.returncode in (0, 3)
     assert bool(run.stdout) is (run.returncode == 0)
     assert run.stderr.count("\n") == (run.returncode == 3)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("size", [365, 380, 395])
+def test_pyarrow_ends_in_whatever_memory(
+    verify: Callable[..., CompletedProcess[str]], size: int, tmp_path: Path
+) -> None:
+    run = verify("sweep", "examples/sweeps/grid.toml", "--jobs", 1, "-o", tmp_path / "rows", "--memory", f"{size}M")
+    assert run.returncode in (0, 3)
+
+
+@pytest.mark.parametrize(
+    ("error", "starved"),
+    [
+        (SystemError("error return without exception set"), True),
+        (KeyboardInterrupt(), True),
+        (Exception("Unknown error: Failed to launch worker thread: Resource temporarily unavailable"), True),
+        (ValueError("x"), False),
+    ],
+)
+def test_how_libraries_say_that_they_got_no_memory(error: BaseException, starved: bool) -> None:
+    assert supervision._starved(error) is starved

@@ -11,6 +11,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any, Final
 
+from fomas_verify.exact.inputs import remember
 from fomas_verify.exact.rational import shortened
 from fomas_verify.network.files.entries import BOTH_WAYS, FROM_TO, HEARS, ORIENTATIONS, Entries, assemble
 from fomas_verify.network.files.refusals import GraphFileError, must_be_file, name_of, need_extra, refused
@@ -67,6 +68,7 @@ def read_graph_file(
     ending = check_call(found.name, orientation, variable, called)
     need_extra("numpy")
     must_be_file(found, called)
+    remember(found)
     try:
         entries = _reader(ending, variable)(found, called)
         return GraphFile(assemble(entries, orientation or FROM_TO, called), entries.remarks)
