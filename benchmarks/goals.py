@@ -1,6 +1,6 @@
 """What was promised of speed and memory, a line each, with the ratio that matters and what it should be.
 
-``python -m benchmarks.goals`` measures these alone.
+``python -m benchmarks.goals`` measures these alone, ``python -m benchmarks.large`` networks of a million agents too.
 """
 
 import json
@@ -38,7 +38,7 @@ def rows(folder: Path) -> Iterator[str]:
     yield from (line(*row) for row in simulate.rows())
     yield from (line(*row) for row in gate_rows(GATE_COUNT, 2))
     yield from (line(*row) for row in sweep.rows())
-    yield from (line(*row) for row in large.rows())
+    yield from (line(*row) for row in large.rows([large.FIRST, large.SECOND]))
 
 
 def paper_rows(folder: Path) -> Iterator[str]:
