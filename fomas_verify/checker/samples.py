@@ -84,8 +84,9 @@ class Samples:
 
     def limit(self, n: int) -> None:
         """Raise `Undecided` if n samples are beyond the work allowed."""
-        beyond = n * self.bits > MAX_SAMPLE_BITS or n * self.agents**3 * self.bits > MAX_SAMPLE_WORK
-        if n > MAX_SAMPLES or beyond:
+        if n * self.bits > MAX_SAMPLE_BITS:
+            raise Undecided(f"{n} samples at {self.bits} bits are beyond the work allowed")
+        if n > MAX_SAMPLES or n * self.agents**3 * self.bits > MAX_SAMPLE_WORK:
             raise Undecided(f"{n} samples of {self.agents} agents at {self.bits} bits are beyond the work allowed")
 
     def _plus(self, ball: Ball, lower: int, upper: int) -> Ball:
