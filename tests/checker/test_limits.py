@@ -5,7 +5,18 @@ from pathlib import Path
 
 import pytest
 
-from fomas_verify.checker import contraction, definite, facts, graph, regions, report, stability, text
+from fomas_verify.checker import (
+    contraction,
+    definite,
+    facts,
+    graph,
+    regions,
+    report,
+    resolvent,
+    samples,
+    stability,
+    text,
+)
 
 PAGE = " ".join((Path(__file__).resolve().parents[2] / "docs" / "certificate-format.md").read_text().split())
 
@@ -31,7 +42,10 @@ def named(pattern: str) -> int:
         (regions.MAX_PAIRS_WORK, r"bits of the weights \+ 64\) <= (2\^\d+)"),
         (facts.MAX_FIELD_WORK, r"degree\^2 N\^3 <= (2\^\d+)"),
         (contraction.MAX_POLYNOMIAL_WORK, r"length\^3 bits <= (2\^\d+)"),
-        (stability.MAX_PRODUCT_WORK, r"N\^3 bits\^2 <= (2\^\d+)"),
+        (definite.MAX_QUICK_WORK, r"fixed point N\^3 bits\^2 <= (2\^\d+)"),
+        (resolvent.MAX_SAMPLES, r"samples (\d+ \d+),"),
+        (samples.MAX_SAMPLE_BITS // 5, r"bits times samples <= 5 (2\^\d+)"),
+        (stability.MAX_PRODUCT_WORK, r"Pc` N\^3 bits\^2 <= (2\^\d+)"),
         (stability.MAX_POWER_WORK, r"N\^3 log2\(n\) bits <= (2\^\d+)"),
         (facts.BITS[0], r"at (\d+) bits and then at twice as many"),
         (facts.BITS[-1], r"twice as many up to (\d+);"),

@@ -46,7 +46,7 @@ def test_a_power_of_a_long_number_is_computed_with_the_bits_asked_for() -> None:
 
 def test_many_samples_have_few_bits() -> None:
     """The error outgrows every precision, since at mu = 19/10 P has an eigenvalue of modulus 4.7."""
-    for k in (MAX_SAMPLE_BITS // 128 + 1, 2**15):
+    for k in (MAX_SAMPLE_BITS // 128 + 1, 2**15, 2**15 + 1):
         said = claim("control-norm-bound", "refuted", x0=["1", "0", "-1"], k=k)
         assert status(path(3), 3, said, "19/10") == "undecided"
 
