@@ -51,6 +51,12 @@ def test_many_samples_have_few_bits() -> None:
         assert status(path(3), 3, said, "19/10") == "undecided"
 
 
+def test_many_agents_have_few_samples() -> None:
+    """2600 samples of 60 agents at 128 bits are beyond 2^36."""
+    said = claim("control-norm-bound", "refuted", x0=["1", *["0"] * 58, "-1"], k=2600)
+    assert status(path(60), 60, said, "1/10") == "undecided"
+
+
 def test_many_rows_have_few_bits() -> None:
     rows = [[0] * i + [1] for i in range(200)]
     assert [quick_sign(rows, bits) for bits in (256, 1024, 2048)] == [1, 1, None]
