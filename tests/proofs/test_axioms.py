@@ -77,9 +77,8 @@ def test_no_source_assumes_anything(checkout: Path) -> None:
         "Section S. End S.\nVariable v : False.",
         "Context (c : False).",
         "Section S.\nAxiom a : False.\nEnd S.",
-        # Proofs given up, for the search above to find; no proof of ours is.
-        "Lemma l : False. Admitted.",
-        "Corollary c : False. Proof. admit. Admitted.",
+        "Lemma l : False. Admitted.",  # given up for the search above to find; no proof of ours is
+        "Corollary c : False. Proof. admit. Admitted.",  # likewise
         "Unset Guard Checking.",
     ],
 )

@@ -50,8 +50,7 @@ def main() -> None:
     path, *variable = sys.argv[1:]
     try:
         record, arrays = told(path, variable[0] if variable else None)
-    except NotImplementedError:
-        # scipy's word for a file of version 7.3, which is HDF5: nothing is left undone here, the user is told of it.
+    except NotImplementedError:  # scipy's word for a file of version 7.3, which is HDF5: the user is told of it
         record, arrays = {"newer": True}, []
     except Exception as error:  # a damaged file can make a library raise anything
         record, arrays = {"error": " ".join(f"{error}".split()) or type(error).__name__}, []
