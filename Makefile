@@ -59,7 +59,7 @@ proofs:  ## compile the Coq proofs and check their axioms
 reports: $(BASE)  ## regenerate the committed reports
 	@for name in paper repaired; do verify-design report examples/$$name.toml -o reports/$$name; done
 
-debian:  # Coq and LaTeX, where they are missing and can be installed
+debian:  # Coq, LaTeX and Chromium, where they are missing and can be installed
 	@tools/debian.sh
 
 lock:  ## resolve requirements/*.txt anew (needs uv)

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs Debian's Coq and LaTeX where they are missing and this is possible (root, apt-get); otherwise says what is left out.
+# Installs Debian's Coq, LaTeX and Chromium where they are missing and this is possible (root, apt-get); otherwise says what is left out.
 set -euo pipefail
 
 have_coq() {
@@ -22,6 +22,7 @@ packages=()
 have_coq || packages+=(coq libcoq-coquelicot libcoq-interval libcoq-mathcomp-algebra)
 have_latex || packages+=(texlive-latex-recommended texlive-latex-extra texlive-pictures texlive-fonts-recommended
     texlive-science lmodern poppler-utils)
+command -v chromium >/dev/null || packages+=(chromium)
 [ ${#packages[@]} -gt 0 ] || exit 0
 
 if [ "$(id -u)" -eq 0 ] && command -v apt-get >/dev/null; then
@@ -34,3 +35,4 @@ if [ "$(id -u)" -eq 0 ] && command -v apt-get >/dev/null; then
 fi
 have_coq || echo "left out: proofs (coq, coquelicot, interval or mathcomp is missing)"
 have_latex || echo "left out: PDF (a LaTeX with pgfplots and siunitx, or pdftoppm, is missing)"
+command -v chromium >/dev/null || echo "left out: the width of an HTML report on a phone (chromium is missing)"
