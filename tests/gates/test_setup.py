@@ -13,7 +13,7 @@ NEEDED = ("bash", "mktemp", "tail", "rm", "dirname", "env")
 
 @pytest.fixture
 def machine(tmp_path: Path) -> Path:
-    """A folder of commands that has neither Coq nor LaTeX nor apt-get."""
+    """A folder of commands that has neither Coq nor LaTeX nor Chromium nor apt-get."""
     commands = tmp_path / "bin"
     commands.mkdir()
     for name in NEEDED:
@@ -37,14 +37,18 @@ def test_without_root_it_says_what_is_left_out(checkout: Path, machine: Path) ->
     add(machine, "apt-get", "echo called >&2; exit 1")
     run = debian(checkout, machine)
     assert (run.returncode, run.stderr) == (0, "")
-    assert [line.split(" (")[0] for line in run.stdout.splitlines()] == ["left out: proofs", "left out: PDF"]
+    assert [line.split(" (")[0] for line in run.stdout.splitlines()] == [
+        "left out: proofs",
+        "left out: PDF",
+        "left out: the width of an HTML report on a phone",
+    ]
 
 
 def test_without_apt_it_says_what_is_left_out(checkout: Path, machine: Path) -> None:
     add(machine, "id", "echo 0")
     run = debian(checkout, machine)
     assert (run.returncode, run.stderr) == (0, "")
-    assert len(run.stdout.splitlines()) == 2
+    assert len(run.stdout.splitlines()) == 3
 
 
 def test_root_gets_what_is_missing(checkout: Path, machine: Path, tmp_path: Path) -> None:
@@ -61,8 +65,10 @@ def test_root_gets_what_is_missing(checkout: Path, machine: Path, tmp_path: Path
     assert update.startswith("noninteractive update")
     assert install.startswith("noninteractive install -y")
     assert "texlive-pictures" in install
+    assert install.endswith(" chromium")
     assert "libcoq-interval" not in install
-    assert run.stdout.splitlines()[-1].startswith("left out: PDF")
+    left_out = [line for line in run.stdout.splitlines() if line.startswith("left out")]
+    assert [line.split()[2] for line in left_out] == ["PDF", "the"]
 
 
 def test_a_failing_installation_is_no_failure(checkout: Path, machine: Path) -> None:
@@ -71,7 +77,7 @@ def test_a_failing_installation_is_no_failure(checkout: Path, machine: Path) -> 
     run = debian(checkout, machine)
     assert run.returncode == 0
     assert "no such package" in run.stderr
-    assert len(run.stdout.splitlines()) == 3
+    assert len(run.stdout.splitlines()) == 4
 
 
 def test_make_says_when_no_python_fits(checkout: Path, tmp_path: Path) -> None:
