@@ -53,9 +53,7 @@ class Redo:
         1, and the least of its others is ``1 - sigma^2``.
         """
         floats = self._of(network)
-        if floats is None:
-            return None
-        if mu[1] * floats.unit > _MOST_GAIN:
+        if floats is None or mu[1] * floats.unit > _MOST_GAIN:
             return None
         gain = float((mu[0] + mu[1]) / 2 * floats.unit)
         middle = Fraction(gain) / floats.unit
