@@ -18,7 +18,7 @@ Ring = TypeVar("Ring", int, Element)
 QUICK_BITS = (256, 1024)
 MAX_QUICK_WORK = 2**43
 MAX_EXACT_WORK = 2**36
-MAX_WIDE_WORK = 2**50
+MAX_WIDE_WORK = 2**47
 
 
 def least_sign(rows: Matrix) -> int:
