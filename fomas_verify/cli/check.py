@@ -12,6 +12,7 @@ from fomas_verify.cli.limits import limited
 from fomas_verify.cli.numeric import needed_redo
 from fomas_verify.cli.options import allow_outside_option, json_option, tell_notes
 from fomas_verify.cli.require import require_option
+from fomas_verify.exact.errors import source_name
 from fomas_verify.gate.answer import answer_to, read_certificate
 
 if TYPE_CHECKING:
@@ -42,7 +43,7 @@ def command(
     """
     meant = None if design is None else _read_design(design, allow_outside=allow_outside)
     redo = needed_redo() if numeric else None
-    answer = answer_to(read_certificate(certificate), str(certificate), meant, require, certificate, redo)
+    answer = answer_to(read_certificate(certificate), source_name(certificate), meant, require, certificate, redo)
     click.echo(json.dumps(answer.record(), indent=2) if as_json else "\n".join(answer.lines()))
     return answer.status
 

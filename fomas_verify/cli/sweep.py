@@ -89,6 +89,8 @@ def command(
     plan = make_plan(read, only=claims, part_rows=part_rows, most_rows=max_rows)
     for remark in read.remarks:
         click.echo(f"note: graph: {remark}", err=True)
+    if plot is not None and plot.resolve().parent == folder.resolve():
+        raise click.UsageError("--plot needs a file outside of the dataset's folder")
     draw = _drawing(plan, plot, across, up, claim, at)
     make_folder(folder)
     with ended_by_sigterm(), _listener(folder) as listener:
@@ -135,7 +137,8 @@ def _listener(folder: Path) -> Iterator[Listener]:
 
             yield Listener(rows, say)
     except (KeyboardInterrupt, SystemExit):
-        _say(f"interrupted: {seen[0]} of {seen[1]} rows are in {folder}; the same call computes the others")
+        if seen[1]:
+            _say(f"interrupted: {seen[0]} of {seen[1]} rows are in {folder}; the same call computes the others")
         raise
     except Exception:
         if 0 < seen[0] < seen[1]:

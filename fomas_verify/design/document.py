@@ -8,11 +8,12 @@ import re
 import stat
 import tomllib
 from dataclasses import dataclass
-from os import PathLike, fspath
+from os import PathLike
 from pathlib import Path
 from typing import Final, Literal, NoReturn
 
 from fomas_verify.design.errors import DesignError
+from fomas_verify.exact.errors import source_name
 from fomas_verify.exact.rational import MAX_CHARACTERS, excerpt
 
 MAX_BYTES: Final = 16 * 2**20
@@ -38,12 +39,6 @@ class Number:
     """A number of a file as it was written there."""
 
     text: str
-
-
-def source_name(path: str | PathLike[str]) -> str:
-    """Return the name by which messages call a file: its path, quoted where that would not be one printable line."""
-    name = fspath(path)
-    return name if name.isprintable() else repr(name)
 
 
 def read_text(path: str | PathLike[str]) -> str:

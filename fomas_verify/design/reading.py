@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from fomas_verify.design.claim_ids import CLAIM_IDS, DEFAULT_REQUIRE, SWITCHED_CLAIM_IDS, SWITCHED_REQUIRE
-from fomas_verify.design.document import Format, format_of, parse_document, read_text, source_name
+from fomas_verify.design.document import Format, format_of, parse_document, read_text
 from fomas_verify.design.errors import DesignError
 from fomas_verify.design.fields import Place, choice, count, number, positive, sequence, shown, table
 from fomas_verify.design.graph_file import Folder, folder_of
@@ -26,6 +26,7 @@ from fomas_verify.design.model import (
     UncertainDesign,
 )
 from fomas_verify.enclosure.interval import Interval
+from fomas_verify.exact.errors import source_name
 from fomas_verify.network import Digraph
 from fomas_verify.network.large import LargeGraph
 

@@ -1,6 +1,7 @@
-"""The base of the project's own errors, and whether an error says that memory ran out."""
+"""The base of the project's own errors, how they name a file, and whether an error says that memory ran out."""
 
 import errno
+from os import PathLike, fspath
 from typing import ClassVar
 
 _NO_ROOM = ("failed to map segment", "cannot allocate memory", "can't start new thread", "unable to allocate")
@@ -15,6 +16,12 @@ class FomasError(Exception):
 
 class MissingExtraError(FomasError):
     """A library of an extra is not installed; the message says which, and how to install it."""
+
+
+def source_name(path: str | PathLike[str]) -> str:
+    """Return the name by which messages call a file: its path, quoted where that would not be one printable line."""
+    name = fspath(path)
+    return name if name.isprintable() else repr(name)
 
 
 def out_of_memory(error: BaseException) -> bool:

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from fomas_verify.checker import Malformed, Report, beside, check
-from fomas_verify.exact.errors import FomasError
+from fomas_verify.exact.errors import FomasError, source_name
 
 if TYPE_CHECKING:
     from fomas_verify.checker.edge_list import Opener
@@ -38,7 +38,7 @@ def read_certificate(path: Path) -> bytes:
         with path.open("rb") as file:
             return file.read(LARGEST + 1)
     except OSError as error:
-        raise CertificateError(f"{path}: expected a certificate, got {error.strerror}") from None
+        raise CertificateError(f"{source_name(path)}: expected a certificate, got {error.strerror}") from None
 
 
 def answer_to(

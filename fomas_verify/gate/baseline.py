@@ -17,6 +17,7 @@ from typing import Any, Final
 from fomas_verify.checker import Malformed, beside, check
 from fomas_verify.checker.large import Numeric
 from fomas_verify.enclosure.digits import rounded_down
+from fomas_verify.exact.errors import source_name
 from fomas_verify.gate.cache import LARGEST, certificate_file
 from fomas_verify.gate.model import FALSE, SHRUNK, UNDECIDED, WRONG_INPUT, Finding
 
@@ -56,12 +57,15 @@ def shrunk_margins(
         status = check(data, opener=beside(path), numeric=numeric).exit_status
     except (OSError, Malformed) as error:
         reason = error.strerror if isinstance(error, OSError) else str(error)
-        yield Finding(SHRUNK, "", WRONG_INPUT, f"{path}: expected a certificate, got: {reason}")
+        yield Finding(SHRUNK, "", WRONG_INPUT, f"{source_name(path)}: expected a certificate, got: {reason}")
         return
     if status:
         outcome = "does not decide within the work allowed" if status == UNDECIDED else "refuses"
         yield Finding(
-            SHRUNK, "", UNDECIDED if status == UNDECIDED else WRONG_INPUT, f"{path}: the checker {outcome} it"
+            SHRUNK,
+            "",
+            UNDECIDED if status == UNDECIDED else WRONG_INPUT,
+            f"{source_name(path)}: the checker {outcome} it",
         )
         return
     former, present = json.loads(data), json.loads(certificate)

@@ -28,8 +28,8 @@ from fomas_verify.design import (
     plain,
     read_named,
 )
-from fomas_verify.design.document import format_of, read_text, source_name
-from fomas_verify.exact.errors import FomasError
+from fomas_verify.design.document import format_of, read_text
+from fomas_verify.exact.errors import FomasError, source_name
 from fomas_verify.gate.answer import differences, held
 from fomas_verify.gate.baseline import shrunk_margins
 from fomas_verify.gate.cache import cache_key, certificate_file, recall

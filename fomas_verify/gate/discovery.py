@@ -17,7 +17,8 @@ from pathlib import Path
 from typing import Final
 
 from fomas_verify.design import DesignError
-from fomas_verify.design.document import MAX_BYTES, format_of, parse_document, source_name
+from fomas_verify.design.document import MAX_BYTES, format_of, parse_document
+from fomas_verify.exact.errors import source_name
 from fomas_verify.gate.model import Result, Skipped, refusal
 
 MARK: Final = "fomas-design"

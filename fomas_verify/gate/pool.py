@@ -11,7 +11,7 @@ from concurrent.futures import Future
 from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 
-from fomas_verify.design.document import source_name
+from fomas_verify.exact.errors import source_name
 from fomas_verify.gate.deciding import Options, decide
 from fomas_verify.gate.model import BROKEN, INTERNAL, Finding, Result
 from fomas_verify.prover.limits import allowed_memory

@@ -22,7 +22,7 @@ from functools import cache
 from io import FileIO
 from pathlib import Path
 
-from fomas_verify.exact.errors import FomasError
+from fomas_verify.exact.errors import FomasError, source_name
 from fomas_verify.exact.inputs import was_read
 
 _NAME_PART = 40
@@ -250,9 +250,4 @@ def _refusals_named(path: Path) -> Iterator[None]:
         yield
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
-        raise OutputError(f"{_shown(path)}: cannot write: {reason}") from None
-
-
-def _shown(path: Path) -> str:
-    name = str(path)
-    return name if name.isprintable() else repr(name)
+        raise OutputError(f"{source_name(path)}: cannot write: {reason}") from None

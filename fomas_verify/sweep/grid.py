@@ -15,10 +15,11 @@ from os import PathLike
 from typing import Any, Final
 
 from fomas_verify.design import Design, DesignError, design_from_mapping
-from fomas_verify.design.document import format_of, parse_document, read_text, source_name
+from fomas_verify.design.document import format_of, parse_document, read_text
 from fomas_verify.design.fields import Place, table
 from fomas_verify.design.graph_file import Folder, folder_of
 from fomas_verify.design.graph_table import read_listed_graph
+from fomas_verify.exact.errors import source_name
 from fomas_verify.exact.rational import format_rational
 from fomas_verify.network import SHAPED_FAMILIES
 from fomas_verify.sweep.axes import (

@@ -46,8 +46,11 @@ def locked(folder: Path) -> Iterator[None]:
     Raises
     ------
     SweepError
-        Another process holds it.
+        Another process holds it, or there are files and no sweep in it, which then stays as it is.
     """
+    names = {entry.name for entry in folder.iterdir() if not _UNFINISHED.fullmatch(entry.name)} - {LOCK}
+    if names and MANIFEST not in names:
+        raise SweepError(f"{folder}: expected an empty folder or one of this sweep, found {min(names)}")
     try:
         file = (folder / LOCK).open("ab")
     except OSError as error:
@@ -69,7 +72,7 @@ def open_for(plan: Plan, folder: Path, write: Write) -> list[int]:
     Raises
     ------
     SweepError
-        The folder holds rows of another grid, or other files.
+        The folder holds rows of another grid, or other files beside them.
     """
     for entry in sorted(folder.iterdir()):
         if _UNFINISHED.fullmatch(entry.name):
@@ -77,8 +80,6 @@ def open_for(plan: Plan, folder: Path, write: Write) -> list[int]:
     manifest = _manifest(folder)
     names = {entry.name for entry in folder.iterdir()} - {MANIFEST, LOCK}
     if manifest is None:
-        if names:
-            raise SweepError(f"{folder}: expected an empty folder or one of this sweep, found {min(names)}")
         text = json.dumps({"format": FORMAT, "digest": plan.digest, "plan": plan.content}, indent=1)
         write(folder / MANIFEST, text.encode())
     else:

@@ -77,6 +77,15 @@ def test_every_command_refuses_in_one_line(tmp_path: Path, command: str) -> None
     assert sorted(tmp_path.iterdir()) == before
 
 
+@pytest.mark.parametrize("command", [*COMMANDS, "sweep"])
+def test_a_file_that_is_missing_is_named_on_one_line(tmp_path: Path, command: str) -> None:
+    done = start(tmp_path, command, "x\n::error::\x1b[31my.toml")
+    said = (done.stderr or done.stdout).splitlines()[0]
+    assert done.returncode == 2
+    assert r"'x\n::error::\x1b[31my.toml': expected a" in said
+    assert "\x1b" not in done.stderr + done.stdout
+
+
 @pytest.mark.parametrize(
     "text",
     [

@@ -107,7 +107,7 @@ def test_other_files_are_not_mixed_with_rows(sweep, write_grid, done, tmp_path: 
     other.mkdir()
     (other / name).write_text("mine")
     assert f"expected an empty folder or one of this sweep, found {name}" in ended(sweep(grid, "-o", other))[2]
-    assert (other / name).read_text() == "mine"
+    assert [(path.name, path.read_text()) for path in other.iterdir()] == [(name, "mine")]
 
 
 def test_a_manifest_that_is_none_is_refused(sweep, done) -> None:
@@ -150,6 +150,10 @@ def test_a_full_disk_leaves_nothing_half_written(write_grid, sweep, tmp_path: Pa
         (("--claims", "gain"), "expected claim ids, got 'gain'"),
         (("--x", "mu"), "--x is about the heat map: give --plot FILE too"),
         (("-o", "/dev/full"), "/dev/full: cannot write: File exists"),
+        (
+            ("-o", "rows", "--plot", "rows/x.svg", "--x", "mu", "--y", "h"),
+            "needs a file outside of the dataset's folder",
+        ),
     ],
 )
 def test_a_wrong_call_is_refused(sweep, write_grid, options, words: str) -> None:

@@ -11,10 +11,11 @@ from os import PathLike
 from pathlib import Path
 from typing import Any, Final
 
+from fomas_verify.exact.errors import source_name
 from fomas_verify.exact.inputs import remember
 from fomas_verify.exact.rational import shortened
 from fomas_verify.network.files.entries import BOTH_WAYS, FROM_TO, HEARS, ORIENTATIONS, Entries, assemble
-from fomas_verify.network.files.refusals import GraphFileError, must_be_file, name_of, need_extra, refused
+from fomas_verify.network.files.refusals import GraphFileError, must_be_file, need_extra, refused
 from fomas_verify.network.sparse import SparseDigraph
 
 MATRIX_FORMATS: Final = (".csv", ".mtx", ".npz", ".mat")
@@ -64,7 +65,7 @@ def read_graph_file(
     MissingExtraError
         A library of the extra `graphs` is not installed.
     """
-    found, called = Path(path), name or name_of(path)
+    found, called = Path(path), name or source_name(path)
     ending = check_call(found.name, orientation, variable, called)
     need_extra("numpy")
     must_be_file(found, called)

@@ -10,7 +10,6 @@ import warnings
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from importlib import import_module
-from os import PathLike, fspath
 from pathlib import Path
 from typing import Final
 
@@ -130,9 +129,3 @@ def reading(path: Path, name: str, expected: str, kind: str) -> Iterator[None]:
     except Exception as error:  # a damaged file can make a library raise anything
         words = " ".join(f"{error}".split()) or type(error).__name__
         raise damaged(path, name, expected, kind, words) from None
-
-
-def name_of(path: str | PathLike[str]) -> str:
-    """The name by which messages call a file."""
-    name = fspath(path)
-    return name if name.isprintable() else repr(name)
