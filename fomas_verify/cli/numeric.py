@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, cast
 
+from fomas_verify.exact.memory import memory_for_factors
 from fomas_verify.gate.answer import CertificateError
-from fomas_verify.prover.limits import memory_for_factors
 
 if TYPE_CHECKING:
     from fomas_verify.checker.large import Numeric

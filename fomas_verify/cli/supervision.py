@@ -28,7 +28,7 @@ from fomas_verify.cli.machine import ended_by_sigterm
 from fomas_verify.cli.outcome import outcome
 from fomas_verify.cli.stuck import Watch
 from fomas_verify.exact.errors import FomasError, out_of_memory
-from fomas_verify.prover.limits import allow_memory, raise_beyond_memory
+from fomas_verify.exact.memory import allow_memory, raise_beyond_memory
 from fomas_verify.report.files import hold_back, release
 
 LOOK_EVERY, STUCK_EVERY = 0.1, 1.0

@@ -30,6 +30,7 @@ from fomas_verify.design import (
 )
 from fomas_verify.design.document import format_of, read_text
 from fomas_verify.exact.errors import FomasError, source_name
+from fomas_verify.exact.memory import raise_beyond_memory
 from fomas_verify.gate.answer import differences, held
 from fomas_verify.gate.baseline import shrunk_margins
 from fomas_verify.gate.cache import cache_key, certificate_file, recall
@@ -47,7 +48,6 @@ from fomas_verify.gate.model import (
 )
 from fomas_verify.gate.positions import position_of, position_of_error
 from fomas_verify.prover import prove, prove_large, prove_uncertain
-from fomas_verify.prover.limits import raise_beyond_memory
 
 OWN: Final = "design"
 """Stands among required claims for those that the design itself requires."""

@@ -12,9 +12,9 @@ from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 
 from fomas_verify.exact.errors import source_name
+from fomas_verify.exact.memory import allowed_memory
 from fomas_verify.gate.deciding import Options, decide
 from fomas_verify.gate.model import BROKEN, INTERNAL, Finding, Result
-from fomas_verify.prover.limits import allowed_memory
 from fomas_verify.prover.processes import processes
 
 

@@ -13,12 +13,12 @@ from fomas_verify.claims.verdict import Decision
 from fomas_verify.design import DesignError, LargeDesign
 from fomas_verify.enclosure.interval import Interval
 from fomas_verify.enclosure.real import square_root
+from fomas_verify.exact.memory import memory_for_factors
 from fomas_verify.kernel.horizon import Horizon, check_horizon
 from fomas_verify.network.large import TooManyEdgesError, graph_facts, need_scale
 from fomas_verify.network.quotients import image, quotients
 from fomas_verify.prover.large_claims import Start, decide_all, first_failure
 from fomas_verify.prover.large_matrices import decided_by_matrices
-from fomas_verify.prover.limits import memory_for_factors
 from fomas_verify.prover.prove import (
     DEFAULT_DIGITS,
     compare_with_closed_form,

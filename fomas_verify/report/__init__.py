@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from fomas_verify.prover import Proof
 from fomas_verify.report.files import OutputError, make_folder, remove_file, write_all
 
 if TYPE_CHECKING:
+    from fomas_verify.prover import Proof
     from fomas_verify.report.compilation import Compilation
 
 __all__ = ["OutputError", "ReportFiles", "write_report"]

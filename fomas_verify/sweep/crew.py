@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Future, wait
 from typing import Final, Protocol
 
-from fomas_verify.prover.limits import allowed_memory
+from fomas_verify.exact.memory import allowed_memory
 from fomas_verify.prover.processes import processes
 from fomas_verify.sweep.plan import Plan
 from fomas_verify.sweep.table import compute_part

@@ -12,9 +12,9 @@ from fomas_verify.claims.verdict import Decision
 from fomas_verify.design import Design, DesignError
 from fomas_verify.enclosure.interval import Interval
 from fomas_verify.exact.errors import FomasError
+from fomas_verify.exact.memory import raise_beyond_memory
 from fomas_verify.exact.rational import format_rational
 from fomas_verify.prover import Proof, prove
-from fomas_verify.prover.limits import raise_beyond_memory
 from fomas_verify.spectrum.loop import Loop
 from fomas_verify.sweep.grid import at_row
 from fomas_verify.sweep.plan import Plan

@@ -251,7 +251,7 @@ def test_processes_share_the_memory(checkout: Path, fresh: bool) -> None:
     """Two processes and the one that started them have a third each."""
     code = (
         "import resource\n"
-        "from fomas_verify.prover.limits import allow_memory\n"
+        "from fomas_verify.exact.memory import allow_memory\n"
         "from fomas_verify.prover.processes import processes\n"
         "if __name__ == '__main__':\n"
         "    allow_memory(6 << 30)\n"
