@@ -14,7 +14,7 @@ PAPER = Path(__file__).parents[2] / "examples" / "paper.toml"
 
 def loaded(*arguments: object) -> set[str]:
     """The modules of a command that ended with status 0."""
-    code = "import sys, fomas_verify.cli.app as app; status = app.main(sys.argv[1:]); print(*sys.modules); sys.exit(status)"
+    code = "import sys; from fomas_verify.cli.app import main; ended = main(); print(*sys.modules); sys.exit(ended)"
     done = subprocess.run(
         [sys.executable, "-c", code, *map(str, arguments)], capture_output=True, text=True, check=True, timeout=60
     )
