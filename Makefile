@@ -54,7 +54,7 @@ bench: $(VENV)/bench.done  ## speed and memory as ratios, side by side in one ru
 proofs:  ## compile the Coq proofs and check their axioms
 	@if [ ! -f proofs/Makefile ]; then echo "left out: proofs (there is no proofs/Makefile)"; \
 	elif ! command -v coqc >/dev/null; then echo "left out: proofs (coqc is missing)"; \
-	else $(MAKE) -C proofs all check assumptions; fi
+	else $(MAKE) -j 2 -C proofs all check assumptions; fi
 
 reports: $(BASE)  ## regenerate the committed reports
 	@for name in paper repaired; do verify-design report examples/$$name.toml -o reports/$$name; done
