@@ -220,3 +220,28 @@ def test_what_is_no_horizon(verify: Verify, text: str) -> None:
     run = verify("prove", PAPER, "--horizon", text)
     assert (run.returncode, run.stdout) == (2, "")
     assert "'--horizon'" in run.stderr
+
+
+@pytest.mark.parametrize(
+    ("alpha", "memory"),
+    [
+        ("123456789/987654321987", "refuted"),
+        ("987654321986/987654321987", "proved"),
+        ("18446744073709551617/36893488147419103232", ""),
+    ],
+)
+def test_an_order_of_long_numbers_is_decided_or_refused(
+    verify: Verify, tmp_path: Path, alpha: str, memory: str
+) -> None:
+    """mu = 1/10 on a cycle of five: 1 - mu lambda2 = 0.86 lies between 2^alpha - 1 near 0 and near 1."""
+    design = write(
+        tmp_path, f'alpha = "{alpha}"\nmu = 0.1\nx0 = [1, 2, 3, 4, 5]\n[graph]\nfamily = "cycle"\nagents = 5\n'
+    )
+    run = verify("prove", design, "-o", tmp_path / "certificate.json")
+    if not memory:
+        assert (run.returncode, run.stdout, run.stderr.count("\n")) == (2, "", 1)
+        return
+    assert "undecided" not in run.stdout
+    assert re.search(rf"^[* ] memory-inequality +{memory} ", run.stdout, re.M)
+    assert run.returncode == (0 if memory == "proved" else 1)
+    assert verify("check", tmp_path / "certificate.json", "--design", design).returncode == 0
