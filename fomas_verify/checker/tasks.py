@@ -166,6 +166,7 @@ def _require_block(
 def _require_no_more_robust(facts: Facts, limits: Limits, room: _Room, claim: TaskClaim) -> None:
     need_that(limits.settle_to is None, "there is no settle_within")
     need_that(claim.bound > 1, "bound > 1")
+    need_that(not claim.blocks, "there are no blocks, which would show nothing here")
     square, (c, d) = claim.bound**2, room.outer
     (h_least, h_most), (least, most) = room.h, room.gamma
     gamma_varies = limits.gamma is None or limits.gamma[0] < limits.gamma[1]

@@ -287,6 +287,7 @@ def test_the_most_robust(limits: Json, enough: str, too_little: str) -> None:
 def test_what_is_said_of_the_most_robust_without_proof() -> None:
     refused(best({}, "most-robust", "1"), "bound > 1")
     refused(best({"settle_within": "9", "settle_to": "1/2"}, "most-robust", "9"), "there is no settle_within")
+    refused(best({}, "most-robust", "1342/1000", END), "there are no blocks")
 
 
 def test_another_statement() -> None:
