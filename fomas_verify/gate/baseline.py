@@ -99,11 +99,14 @@ def unmatched_certificates(folder: Path, names: Iterable[str]) -> tuple[str, ...
 
 
 def margins_of(certificate: dict[str, Any], claim: str) -> dict[str, Fraction]:
-    """The margins of a claim in an accepted certificate, lower bounds: in mu as a share of mu, in alpha a distance."""
+    """The margins of a claim in an accepted certificate, lower bounds: in mu as a share of mu, in alpha a distance.
+
+    None in mu where a certificate that was made elsewhere leaves out the value of mu.
+    """
     values = certificate["values"]
     ranges = values.get("margins", {}).get(claim, {})
     found = {}
-    if "outer" in ranges.get("mu", {}):
+    if "outer" in ranges.get("mu", {}) and "mu" in values:
         a, b = map(Fraction, ranges["mu"]["inner"])
         lower, upper = (Fraction(values["mu"][end]) for end in ("lower", "upper"))
         found["mu"] = min(1 - a / lower, b / upper - 1)

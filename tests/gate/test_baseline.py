@@ -129,6 +129,17 @@ def test_a_margin_that_is_no_longer_found_is_undecided() -> None:
     assert list(baseline_margins._compared("gain-bound", {"mu": Fraction(-1)}, {}, Fraction(0))) == []
 
 
+def test_a_baseline_without_the_value_mu_is_compared_in_alpha(baseline: Path, tmp_path: Path) -> None:
+    (file,) = baseline.iterdir()
+    certificate = json.loads(file.read_text())
+    del certificate["values"]["mu"]
+    assert margins_of(certificate, "memory-inequality").keys() == {"alpha"}
+    (tmp_path / file.name).write_text(json.dumps(certificate))
+    (tmp_path / "designs").mkdir()
+    assert gate(tmp_path / "designs", design(), tmp_path) == 0
+    assert gate(tmp_path / "designs", design("0.1492"), tmp_path) == 1
+
+
 def test_new_ok_is_about_a_baseline(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "x.design.toml").write_text(design())
     assert main(["gate", str(tmp_path), "--new-ok"]) == 2
