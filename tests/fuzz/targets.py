@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 from collections.abc import Callable
 from hashlib import sha256
 from pathlib import Path
@@ -57,14 +58,16 @@ def _graph(random: Random) -> bytes:
 
 
 def fuzz_graph(data: bytes, folder: Path) -> str:
-    """Reading a graph file; the input's first line is the file's ending and the orientation."""
+    """Reading a graph file; the input's first line is the file's ending and the orientation, or there is no file."""
     from fomas_verify.network import GraphError
     from fomas_verify.network.files import read_graph_file
 
-    head, _, content = data.partition(b"\n")
-    ending, orientation = head.decode().split(" ")
+    head = re.match(rb"(\.[a-z]+) ([a-z-]*)\n", data)
+    if head is None:
+        return REFUSAL
+    ending, orientation = (word.decode() for word in head.groups())
     file = folder / f"graph{ending}"
-    file.write_bytes(content)
+    file.write_bytes(data[head.end() :])
     try:
         found = read_graph_file(file, orientation or None, name="graph")
     except (GraphError, FomasError) as error:
