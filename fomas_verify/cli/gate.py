@@ -18,6 +18,7 @@ from fomas_verify.cli.machine import ended_by_sigterm, processors
 from fomas_verify.cli.numeric import redo_if_installed
 from fomas_verify.cli.options import allow_outside_option, json_option
 from fomas_verify.cli.require import OWN, require_option
+from fomas_verify.exact.inputs import remember
 from fomas_verify.report.files import OutputError, make_folder, write_all
 
 if TYPE_CHECKING:
@@ -96,7 +97,9 @@ def command(
 
     reports = {"junit": junit, "sarif": sarif, "markdown": markdown}
     found = list(find_designs(paths))
-    _refuse_overlap({name: path for name, path in reports.items() if path is not None}, found)
+    _refuse_overlap(
+        {name: path for name, path in reports.items() if path is not None}, found, certificates=output is not None
+    )
     if output is not None and baseline is not None and os.path.realpath(output) == os.path.realpath(baseline):
         raise click.BadParameter(
             "expected another folder than --baseline, which a failing run would replace", param_hint="-o"
@@ -116,12 +119,14 @@ def command(
     return first_of([answer.status, *teller.failures, *_write(answer, junit, sarif, markdown)])
 
 
-def _refuse_overlap(reports: dict[str, Path], found: list[Found]) -> None:
-    """No report may take the place of another, of a design or of its graph file."""
+def _refuse_overlap(reports: dict[str, Path], found: list[Found], *, certificates: bool) -> None:
+    """No report may take the place of another, and nothing that of a design or of its graph file."""
     taken = {os.path.realpath(x): "a design" for x in found if isinstance(x, Path)}
-    if reports:
+    if reports or certificates:
         graphs = (path for x in found if isinstance(x, Path) for path in _graph_files(x))
         taken |= {os.path.realpath(path): "a graph file" for path in graphs}
+        for read in taken:
+            remember(Path(read))
     for name, path in reports.items():
         real = os.path.realpath(path)
         if real in taken and not (path.exists() and not path.is_file()):

@@ -45,10 +45,10 @@ def command(
     Example:  verify-design prove examples/paper.toml -o certificate.json --horizon 1000
     """
     named = read_named(design, allow_outside=allow_outside)
-    proof = _prove(named, horizon, digits, coq)
+    proof = _prove(named, horizon, digits, coq=coq is not None)
     for note in proof.notes if isinstance(proof, LargeProof) else ():
         click.echo(f"note: {note}", err=True)
-    certificate = _certificate(proof, output, printed=as_json)
+    certificate = _certificate(proof, output, coq, printed=as_json)
     if as_json:
         tell_notes(named)
         click.echo(certificate, nl=False)
@@ -57,14 +57,18 @@ def command(
     return proof.exit_status
 
 
-def _certificate(proof: Found, output: Path | None, *, printed: bool) -> str:
-    """The certificate, written where that is asked for, a large graph's edge list before it; empty where it is not."""
+def _certificate(proof: Found, output: Path | None, coq: Path | None, *, printed: bool) -> str:
+    """The certificate, written where that is asked for, Coq file or a large graph's edge list before it; empty where
+    it is not.
+    """
     from fomas_verify.report.files import write_all
 
+    restated = {} if coq is None or not isinstance(proof, Proof) else _coq(proof, coq)
     if output is not None:
         files = proof.files(output) if isinstance(proof, LargeProof) else {output: proof.certificate().encode()}
-        write_all(files)
+        write_all(restated, files)
         return files[output].decode()
+    write_all(restated)
     if not printed:
         return ""
     if not isinstance(proof, LargeProof):
@@ -90,22 +94,19 @@ def _text(proof: Found) -> str:
     return switched_proof_text(proof)
 
 
-def _prove(design: AnyDesign, horizon: int | None, digits: int, coq: Path | None) -> Found:
+def _prove(design: AnyDesign, horizon: int | None, digits: int, *, coq: bool) -> Found:
     if isinstance(design, Design):
-        proof = prove(design, horizon=horizon, digits=digits)
-        if coq is not None:
-            _write_coq(proof, coq)
-        return proof
+        return prove(design, horizon=horizon, digits=digits)
     if isinstance(design, LargeDesign):
-        if coq is not None:
+        if coq:
             raise DesignError(f"{design.source}: --coq is not supported yet with {design.graph.agents} agents")
         return prove_large(design, horizon=horizon, digits=digits)
     if isinstance(design, SwitchedDesign):
         source, what = design.first.source, "[[graphs]]"
     else:
         source, what = design.least.source, "an interval"
-    for option, value in {"--horizon": horizon, "--coq": coq}.items():
-        if value is not None:
+    for option, asked in {"--horizon": horizon is not None, "--coq": coq}.items():
+        if asked:
             raise DesignError(f"{source}: {option} is not supported yet with {what}")
     if isinstance(design, UncertainDesign):
         return prove_uncertain(design)
@@ -114,12 +115,12 @@ def _prove(design: AnyDesign, horizon: int | None, digits: int, coq: Path | None
     return prove_switched(design)
 
 
-def _write_coq(proof: Proof, folder: Path) -> None:
+def _coq(proof: Proof, folder: Path) -> dict[Path, bytes]:
     from fomas_verify.certificate.coq import coq_file
-    from fomas_verify.report.files import make_folder, write_whole
+    from fomas_verify.report.files import make_folder
 
     file = coq_file(proof.loop, proof.decisions)
     make_folder(folder)
-    write_whole(folder / f"{file.module}.v", file.text.encode())
     for line in file.remarks():
         click.echo(f"{file.module}.v: {line}", err=True)
+    return {folder / f"{file.module}.v": file.text.encode()}

@@ -12,7 +12,7 @@ from fomas_verify.cli.limits import limited
 from fomas_verify.cli.options import allow_outside_option, design_argument, json_option, tell_notes
 from fomas_verify.design import DesignError, LargeDesign, Limits, SwitchedDesign, UncertainDesign, read_named
 from fomas_verify.region import Region, certificate, find_region, record, region_text
-from fomas_verify.report.files import write_whole
+from fomas_verify.report.files import write_all, write_whole
 
 if TYPE_CHECKING:
     from fomas_verify.region.polygon import Room
@@ -65,12 +65,12 @@ def command(
     if solver == "lmi":
         _hold_against_lmi(found)
     left = _left(found)
+    drawn = {}
     if plot is not None and file_format is not None:
         from fomas_verify.region.drawing import draw
 
-        write_whole(plot, draw(found, file_format))
-    if output is not None:
-        write_whole(output, certificate(found).encode())
+        drawn[plot] = draw(found, file_format)
+    write_all(drawn, {output: certificate(found).encode()} if output is not None else {})
     click.echo(json.dumps(record(found, left), indent=2) if as_json else region_text(found, left))
     return 0
 

@@ -218,14 +218,14 @@ def _write(
     from fomas_verify.report.files import make_folder, write_all
     from fomas_verify.simulate.table import csv_parts, parquet_bytes
 
-    contents: dict[Path, bytes | Iterable[bytes]] = dict(figures)
+    contents: dict[Path, bytes | Iterable[bytes]] = {}
     if csv_file is not None:
         contents[csv_file] = csv_parts(runs) if beyond is None else beyond.csv
     if parquet is not None:
         contents[parquet] = parquet_bytes(runs)
     for folder in {path.parent for path in figures}:
         make_folder(folder)
-    write_all(contents)
+    write_all(figures, contents)
 
 
 def _figures(

@@ -14,6 +14,7 @@ from typing import Final, Literal, NoReturn
 
 from fomas_verify.design.errors import DesignError
 from fomas_verify.exact.errors import source_name
+from fomas_verify.exact.inputs import remember
 from fomas_verify.exact.rational import MAX_CHARACTERS, excerpt
 
 MAX_BYTES: Final = 16 * 2**20
@@ -42,7 +43,7 @@ class Number:
 
 
 def read_text(path: str | PathLike[str]) -> str:
-    """Return the text of a design file.
+    """Return the text of a design file, whose place no output of this process takes from now on.
 
     Raises
     ------
@@ -59,6 +60,7 @@ def read_text(path: str | PathLike[str]) -> str:
         if status.st_size > MAX_BYTES:
             raise _refused(source, f"a file of at most {MAX_BYTES} bytes", f"{status.st_size} bytes")
         data = Path(path).read_bytes()
+        remember(Path(path))
     except FileNotFoundError:
         raise _refused(source, "a file", "no such file") from None
     except OSError as error:

@@ -101,10 +101,11 @@ def squared_images(a: BallMatrix, vectors: Sequence[Sequence[Fraction]]) -> Inte
     return sum((squared_image(a, vector) for vector in vectors), Interval.exactly(0))
 
 
-def approx_preimage_of_top(a: BallMatrix, laplacian: Matrix) -> list[Fraction]:
-    """A vector x near which ``norm(A L x) / norm(L x)`` is largest, its largest entry 1; approximate.
+def approx_preimage_of_top(a: BallMatrix, laplacian: Matrix) -> list[Fraction] | None:
+    """A vector x near which ``norm(A L x) / norm(L x)`` is largest, its largest entry 1; approximate. None where the
+    precision in force does not tell ``L + D J`` from a singular matrix.
 
-    It solves ``(L + J) x = w`` for the top right singular vector w of ``(I - J) A``.
+    It solves ``(L + D J) x = w`` for the top right singular vector w of ``(I - J) A``, D the largest entry of L.
     """
     n = a.nrows()
     top = centered(a)
@@ -114,8 +115,12 @@ def approx_preimage_of_top(a: BallMatrix, laplacian: Matrix) -> list[Fraction]:
         gram = (gram * gram).mid()
     best = max(range(n), key=lambda i: exact_end(gram[i, i]))
     column = arb_mat(n, 1, [gram[i, best] for i in range(n)])
-    shifted = arb_mat(laplacian) + arb_mat(n, n, [arb(1) / n] * (n * n))
-    solved = shifted.solve(column)
+    degree = arb(to_fmpq(max(x for row in to_rows(laplacian) for x in row)))
+    shifted = arb_mat(laplacian) + arb_mat(n, n, [degree / n] * (n * n))
+    try:
+        solved = shifted.solve(column, algorithm="approx")
+    except ZeroDivisionError:
+        return None
     x = [exact_end(solved[i, 0].mid()) for i in range(n)]
     x = [entry - x[-1] for entry in x]
     largest = max(map(abs, x)) or Fraction(1)

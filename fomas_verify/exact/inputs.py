@@ -1,4 +1,4 @@
-"""The files that this process read graphs from: nothing that it writes may take the place of one."""
+"""The files that this process reads: nothing that it writes may take the place of one."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ _READ: set[str] = set()
 
 
 def remember(path: Path) -> None:
-    """Note that a graph was read from this file."""
+    """Note that this file is read."""
     _READ.add(os.path.realpath(path))
 
 
 def was_read(path: Path) -> bool:
-    """Whether a graph was read from this file."""
+    """Whether this file was read."""
     return os.path.realpath(path) in _READ

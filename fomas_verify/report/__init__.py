@@ -83,8 +83,9 @@ def write_report(
     contents |= {folder / name: content for name, content in data.items()}
     if compiled is not None and compiled.pdf is not None:
         contents[pdf] = compiled.pdf
+    follows = text.exists()
     write_all(contents)
-    if compiled is not None and compiled.pdf is None:
+    if compiled is not None and compiled.pdf is None and follows:
         remove_file(pdf)  # one of an earlier run would contradict the text beside it
     written = tuple(folder / name for name in data)
     return ReportFiles(text, json, written, pdf if pdf in contents else None, compiled.reason if compiled else "")

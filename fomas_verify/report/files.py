@@ -28,8 +28,8 @@ from fomas_verify.exact.inputs import was_read
 _NAME_PART = 40
 _UNFINISHED = re.compile(r"\.(.{0,40})\.[0-9a-f]{16}\.tmp", re.DOTALL)
 _LOOKED_AT = 1 << 20
-_ALPHA = re.compile(rb'(?:^|[{,\n])\s*"?alpha"?\s*[=:]')
-_GRAPH = re.compile(rb'(?:^|[{,\n])\s*(?:"graphs?"\s*:|graphs?\s*[=.]|\[+\s*graphs?\s*[\].])')
+_ALPHA = re.compile(rb"""(?:^|[{,\n])\s*(?:["']?grid["']?\s*\.\s*)?["']?alpha["']?\s*[=:]""")
+_GRAPH = re.compile(rb"""(?:^|[{,\n])\s*(?:["']?graphs?["']?\s*[:=.]|\[+\s*["']?graphs?["']?\s*[\].])""")
 _CERTIFICATE = re.compile(rb'"format"\s*:\s*"fomas-certificate/')
 
 
@@ -99,15 +99,17 @@ def write_whole(path: Path, data: bytes, *, durable: bool = False) -> None:
     write_all({path: data}, durable=durable)
 
 
-def write_all(contents: Mapping[Path, bytes | Iterable[bytes]], *, durable: bool = False) -> None:
-    """Write several files, whole or part after part, as `write_whole` does, none where one cannot be stored; raises
-    `OutputError`.
+def write_all(*contents: Mapping[Path, bytes | Iterable[bytes]], durable: bool = False) -> None:
+    """Write several files, whole or part after part, as `write_whole` does, none where one cannot be stored, or two are
+    the same file; raises `OutputError`.
     """
     staged: list[tuple[Path, Path]] = []
     with ExitStack() as files:
         try:
-            for path, data in contents.items():
+            for path, data in [entry for files_of_one in contents for entry in files_of_one.items()]:
                 with _refusals_named(path):
+                    if os.path.realpath(path) in [os.path.realpath(other) for _, other in staged]:
+                        raise FileExistsError(None, "expected a file of its own, found another output of this run")
                     _stage(path, data, staged, files, durable=durable)
             if _held is not None and _held.names:
                 _held.files += staged
@@ -159,7 +161,7 @@ def _stage(
         if _is_a_design(target):
             raise FileExistsError(None, "expected a file of its own, found a design")
         if was_read(target):
-            raise FileExistsError(None, "expected a file of its own, found the graph that was read")
+            raise FileExistsError(None, "expected a file of its own, found what this run reads")
         _remove_leftovers(target)
     temporary, file = _locked_temporary(place)
     files.enter_context(file)

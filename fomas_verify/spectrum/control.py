@@ -44,7 +44,7 @@ def state_above(loop: Loop, k: int, bits: int) -> list[Fraction] | None:
         phi = phi_at(loop, k, bits)
         approximation = approx_preimage_of_top(phi, loop.laplacian)
         scale = 0
-        while scale <= bits:
+        while approximation is not None and scale <= bits:
             x0 = [Fraction(round(x * (1 << scale))) for x in approximation]
             e0 = exact.apply(loop.laplacian, x0)
             if squared_image(phi, e0).lower > exact.norm_squared(e0):

@@ -151,3 +151,13 @@ def test_a_tie_over_a_field_of_degree_8_is_never_decided_wrongly() -> None:
     proof = prove(design_from_mapping({"name": "x", "alpha": "9/10", "mu": "1/2", "graph": family("path", 32)}))
     assert proof.decisions["beta-contraction"].verdict is not Verdict.REFUTED
     assert proof.decisions["average-consensus"].verdict is Verdict.PROVED
+
+
+@pytest.mark.parametrize("weight", ["1/" + str((1 << 250) + 1), str((1 << 4000) + 1), "1"])
+def test_the_scale_of_the_weights_decides_nothing(weight: str) -> None:
+    """On a directed 5-cycle only mu times the weight counts: at 1/1000, beta > 2^alpha - 1 and norm Phi_1 > 1."""
+    edges = [[i, i % 5 + 1, weight] for i in range(1, 6)]
+    gain = str(Fraction(1, 1000) / Fraction(weight))
+    proof = prove(design_from_mapping({"alpha": "9/10", "mu": gain, "graph": {"agents": 5, "edges": edges}}))
+    found = proof.decisions["control-norm-bound"]
+    assert (found.verdict, found.witness["k"]) == (Verdict.REFUTED, 1)

@@ -1,4 +1,4 @@
-"""What a design's graph was read from is never replaced, and an edge list lies beside a file only."""
+"""What a run reads is never replaced, nor one of its outputs by another; an edge list lies beside a file only."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -42,6 +42,40 @@ def test_the_graph_file_is_kept(name: str, link: bool, design: Path, verify: Ver
     assert (tmp_path / "m.csv").read_bytes() == SMALL
     assert run.returncode == 2
     assert "expected a file of its own" in run.stderr
+
+
+BODY = 'gamma = 0.1\nh = 0.5\nx0 = [1, 2, 3]\n[graph]\nfamily = "path"\nagents = 3\n'
+WRITTEN = {
+    "escaped": '"\\u0061lpha" = 0.9\n' + BODY,
+    "after a long comment": "#" * (1 << 20) + "\nalpha = 0.9\n" + BODY,
+    "like a certificate": '# "format": "fomas-certificate/1"\nalpha = 0.9\n' + BODY,
+}
+
+
+@pytest.mark.parametrize("how", WRITTEN)
+@pytest.mark.parametrize("name", ["prove", "prove within limits", "kernel", "gate"])
+def test_a_design_is_kept_however_it_is_written(name: str, how: str, verify: Verify, tmp_path: Path) -> None:
+    design = tmp_path / "d.toml"
+    design.write_text(WRITTEN[how])
+    run = verify(*(str(part).format(d=design, m=design) for part in CALLS[name]))
+    assert design.read_text() == WRITTEN[how]
+    assert run.returncode == 2
+    assert "expected a file of its own" in run.stderr
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        ("prove", "{f}/d.toml", "--coq", "{f}", "-o", "{f}/../{f.name}/D.v"),
+        ("region", "{f}/d.toml", "-o", "{f}/a.svg", "--plot", "{f}/../{f.name}/a.svg"),
+        ("simulate", "{f}/d.toml", "--samples", "3", "--plot", "{f}", "--csv", "{f}/states-proposed.pdf"),
+    ],
+)
+def test_no_output_takes_the_place_of_another(call: tuple[str, ...], design: Path, verify: Verify) -> None:
+    run = verify(*(part.format(f=design.parent) for part in call))
+    assert run.returncode == 2
+    assert "found another output of this run" in run.stderr
+    assert sorted(path.name for path in design.parent.iterdir()) == ["d.toml", "m.csv"]
 
 
 @pytest.mark.parametrize(

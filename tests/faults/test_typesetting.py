@@ -57,7 +57,8 @@ def report(folder: Path, path: str) -> subprocess.Popen[str]:
 @pytest.mark.parametrize("fault", FAILING)
 def test_a_latex_that_fails(fault: str, shim: Path, room: Path) -> None:
     script, reason = FAILING[fault]
-    lay({**NEW, "report/report.pdf": b"of an earlier text", "tmp/x": b""}, room)
+    earlier = {f"report/report.{ending}": b"of an earlier text" for ending in ("tex", "pdf")}
+    lay({**NEW, **earlier, "tmp/x": b""}, room)
     process = report(room, install(shim, script))
     out, err = process.communicate()
     assert (process.returncode, err) == (0, "")

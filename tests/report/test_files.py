@@ -180,6 +180,8 @@ DESIGNS = [
     "format = 'fomas-design/1'\nmu = 1\nalpha= ['1/2', 0.7]\ngraph.family = 'path'\ngraph.agents = 3\n",
     '{"alpha":0.9,"mu":"1/10","graph":{"family":"path","agents":3}}',
     '{\n  "graph": {"family": "path", "agents": 3},\n  "alpha": "9/10"\n}\n',
+    "'alpha' = 0.9\nmu = 0.1\n['graph']\nfamily = \"path\"\nagents = 3\n",
+    'mu = 0.1\n["graph"]\nfamily = "path"\nagents = 3\n[other]\n"grid".alpha = [0.5, 0.9]\n',
 ]
 
 
@@ -196,6 +198,15 @@ def test_no_output_takes_the_place_of_a_design(tmp_path: Path, text: str, linked
     assert caught.value.exit_status == 2
     assert design.read_text() == text
     assert not other.exists()
+
+
+def test_no_two_outputs_are_one_file(tmp_path: Path) -> None:
+    (tmp_path / "a").write_bytes(b"old")
+    (tmp_path / "link").symlink_to("a")
+    with pytest.raises(OutputError, match=r"link: cannot write: expected .*, found another output of this run$"):
+        write_all({tmp_path / "a": b"1"}, {tmp_path / "link": b"2"})
+    assert (tmp_path / "a").read_bytes() == b"old"
+    assert names(tmp_path) == ["a", "link"]
 
 
 def test_a_certificate_gives_way_to_the_next(tmp_path: Path, checkout: Path) -> None:

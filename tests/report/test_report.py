@@ -250,7 +250,8 @@ def test_latex_is_stopped_after_its_time() -> None:
 def test_without_latex_there_is_the_source_and_how_to_get_the_pdf(
     paper: Proof, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    (tmp_path / "report.pdf").write_bytes(b"of an earlier run")
+    for name in ("report.tex", "report.pdf"):
+        (tmp_path / name).write_bytes(b"of an earlier run")
     monkeypatch.setenv("PATH", str(tmp_path))
     files = write_report([paper], tmp_path, command=COMMAND)
     assert files.pdf is None
@@ -258,6 +259,13 @@ def test_without_latex_there_is_the_source_and_how_to_get_the_pdf(
     assert files.lines()[-1] == files.without_pdf
     assert all("\n" not in line for line in files.lines())
     assert sorted(p.name for p in tmp_path.iterdir()) == sorted(["certificate.json", "report.tex", *DATA])
+
+
+@pytest.mark.usefixtures("quick")
+def test_a_pdf_that_is_of_no_earlier_report_is_kept(paper: Proof, tmp_path: Path) -> None:
+    (tmp_path / "report.pdf").write_bytes(b"the user's own")
+    write_report([paper], tmp_path, command=COMMAND)
+    assert (tmp_path / "report.pdf").read_bytes() == b"the user's own"
 
 
 def test_a_failing_latex_leaves_no_file_of_its_own(
