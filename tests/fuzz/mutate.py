@@ -258,7 +258,8 @@ def _change(holder: dict | list, key: object, other: object, random: Random) -> 
         case 0:
             del holder[key]
         case 1:
-            holder[key] = [holder[key]] * random.choice((1, 2, 300))
+            room = LARGEST // len(json.dumps(holder[key], default=str)) + 1
+            holder[key] = [holder[key]] * min(room, random.choice((1, 2, 300)))
         case 2 if other is not None and (places := _places(other)):
             there, name = random.choice(places)
             holder[key] = json.loads(json.dumps(there[name], default=str))
