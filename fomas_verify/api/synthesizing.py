@@ -11,6 +11,7 @@ from fomas_verify.certificate.synthesis_document import synthesis_certificate_te
 from fomas_verify.checker import check
 from fomas_verify.design import Design, parse_design
 from fomas_verify.enclosure.reference import DisagreementError
+from fomas_verify.exact.rational import format_rational, shortened
 from fomas_verify.prover import Proof, prove
 from fomas_verify.region import find_region
 from fomas_verify.region.clash import clash
@@ -137,8 +138,9 @@ def _proved(answer: Answer) -> Proof:
     proof = prove(found)
     if proof.exit_status:
         failing = [x for x in found.require if proof.decisions[x].verdict.value != "proved"]
+        gamma, h = (shortened(format_rational(x)) for x in (point.gamma, point.h))
         raise UndecidedRegionError(
-            f"{task.design.source}: the best point, gamma = {point.gamma} and h = {point.h}, does not satisfy "
+            f"{task.design.source}: the best point, gamma = {gamma} and h = {h}, does not satisfy "
             f"{', '.join(failing)}, which the design requires; whether another does is not decided"
         )
     return proof

@@ -89,9 +89,14 @@ def number(value: object, place: Place) -> Fraction:
             x = parse_rational(text, what=str(place))
         except RationalError as error:
             raise DesignError(str(error)) from None
-    if max(x.numerator.bit_length(), x.denominator.bit_length()) > MAX_BITS:
+    if not fits_a_design(x):
         raise place.expected(f"numerator and denominator below 2^{MAX_BITS}", value)
     return x
+
+
+def fits_a_design(x: Fraction) -> bool:
+    """Whether a design may hold this number: numerator and denominator are below 2^4096."""
+    return max(x.numerator.bit_length(), x.denominator.bit_length()) <= MAX_BITS
 
 
 def positive(value: object, place: Place, what: str = "a number") -> Fraction:

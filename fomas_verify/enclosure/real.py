@@ -16,6 +16,9 @@ from fomas_verify.enclosure.interval import Interval
 
 Ball = arb
 
+LARGEST_LOG = 1 << 13
+"""The binary logarithm beyond which no number is given digits."""
+
 
 @contextmanager
 def working_precision(bits: int) -> Iterator[None]:
@@ -86,6 +89,12 @@ def power_of(base: Interval, exponent: Fraction, bits: int) -> Interval:
     """``base^exponent`` for an enclosed base > 0."""
     with working_precision(bits):
         return to_interval(to_ball(base) ** to_fmpq(exponent))
+
+
+def root_of(x: Interval, alpha: Fraction, bits: int) -> Interval | None:
+    """``x^(1/alpha)`` for an enclosed x > 0; None beyond ``2^-8192`` and ``2^8192``, where alpha is near 0."""
+    far = max(map(abs, log2(x, bits).ends)) > LARGEST_LOG * alpha
+    return None if far else power_of(x, 1 / alpha, bits)
 
 
 def log2(x: Interval, bits: int) -> Interval:

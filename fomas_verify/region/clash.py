@@ -8,7 +8,7 @@ from fractions import Fraction
 
 from fomas_verify.enclosure.digits import decimal, exact_decimal, rounded_down, rounded_up
 from fomas_verify.enclosure.interval import Interval
-from fomas_verify.enclosure.real import power_of, square_root
+from fomas_verify.enclosure.real import root_of, square_root
 from fomas_verify.exact.rational import format_rational
 from fomas_verify.kernel.memory import one_step_weight
 from fomas_verify.region.errors import UndecidedRegionError
@@ -67,15 +67,14 @@ def _no_room(task: Task) -> str:
     if strip is None or h[1] is None or most is None or not _falls_short(task):
         return _too_large(task)
     (c, _), gamma = strip.outer, task.gamma_function
-    needed = power_of(gamma * c / most, 1 / alpha, BITS).lower
+    needed = root_of(gamma * c / most, alpha, BITS)
     other = c / one_step_weight(alpha, h[1], BITS).upper
     name, factor = "gamma", Fraction(1)
     if _actuator_binds(task):
         name, factor = "u_max", square_root(Interval.exactly(task.error_squared), BITS).lower
-    return (
-        f"{' and '.join(_names(task, upper=True))} leave no gamma: h must reach at least "
-        f"{rounded_down(needed, DIGITS)}, or {name} at least {rounded_down(other * factor, DIGITS)}"
-    )
+    of_h = "" if needed is None else f"h must reach at least {rounded_down(needed.lower, DIGITS)}, or "
+    of_other = f"{name}{' must reach' if needed is None else ''} at least {rounded_down(other * factor, DIGITS)}"
+    return f"{' and '.join(_names(task, upper=True))} leave no gamma: {of_h}{of_other}"
 
 
 def _falls_short(task: Task) -> bool:
@@ -92,12 +91,11 @@ def _too_large(task: Task) -> str:
     named = " and ".join(_names(task, upper=False))
     if strip is None or not box.h[0] or not box.gamma_least:
         return f"{named} leave no gamma"
-    needed = power_of(task.gamma_function * strip.outer[1] / box.gamma_least, 1 / alpha, BITS).upper
+    needed = root_of(task.gamma_function * strip.outer[1] / box.gamma_least, alpha, BITS)
     other = strip.outer[1] / one_step_weight(alpha, box.h[0], BITS).lower
-    return (
-        f"{named} leave no gamma: h must fall to at most {rounded_up(needed, DIGITS)}, "
-        f"or gamma to at most {rounded_up(other, DIGITS)}"
-    )
+    of_h = "" if needed is None else f"h must fall to at most {rounded_up(needed.upper, DIGITS)}, or "
+    of_gamma = f"gamma{' must fall' if needed is None else ''} to at most {rounded_up(other, DIGITS)}"
+    return f"{named} leave no gamma: {of_h}{of_gamma}"
 
 
 def _actuator_binds(task: Task) -> bool:

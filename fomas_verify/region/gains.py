@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from fomas_verify.enclosure.interval import Interval
-from fomas_verify.enclosure.real import power_of
+from fomas_verify.enclosure.real import root_of
 from fomas_verify.exact.rational import format_rational
 from fomas_verify.kernel.memory import one_step_weight
 from fomas_verify.region.model import Condition, Region, Strip
@@ -24,11 +24,13 @@ class Span:
 
 @dataclass(frozen=True)
 class Section:
-    """The strips at the design's own h or gamma: the name of the number that is left free, and where they are cut."""
+    """The strips at the design's own h or gamma: the name of the number that is left free, and where they are cut; None
+    where an end of that is beyond all numbers given.
+    """
 
     free: str
     at: str
-    spans: tuple[tuple[Condition, Span], ...]
+    spans: tuple[tuple[Condition, Span | None], ...]
 
 
 def span_of(region: Region, strip: Strip) -> Span | None:
@@ -45,17 +47,18 @@ def section(region: Region) -> Section | None:
     spans = [(strip.condition, span) for strip in region.strips if (span := span_of(region, strip)) is not None]
     if design.h is not None:
         weight = one_step_weight(design.alpha, design.h, BITS)
-        cut = [(name, Span(x.lower / weight, x.upper / weight, x.closed)) for name, x in spans]
-        return Section("gamma", f"h = {format_rational(design.h)}", tuple(cut))
+        of_h = tuple((name, Span(x.lower / weight, x.upper / weight, x.closed)) for name, x in spans)
+        return Section("gamma", f"h = {format_rational(design.h)}", of_h)
     if design.gamma is None:
         return None
     at_one = one_step_weight(design.alpha, Fraction(1), BITS) * design.gamma
-    cut = [
-        (name, Span(_root(x.lower / at_one, region), _root(x.upper / at_one, region), x.closed)) for name, x in spans
-    ]
+    cut = []
+    for name, x in spans:
+        lower, upper = (_root(end / at_one, design.alpha) for end in (x.lower, x.upper))
+        cut.append((name, None if lower is None or upper is None else Span(lower, upper, x.closed)))
     return Section("h", f"gamma = {format_rational(design.gamma)}", tuple(cut))
 
 
-def _root(x: Interval, region: Region) -> Interval:
+def _root(x: Interval, alpha: Fraction) -> Interval | None:
     """``x^(1/alpha)``; exact at 0."""
-    return x if x.upper == 0 else power_of(x, 1 / region.loop.design.alpha, BITS)
+    return x if x.upper == 0 else root_of(x, alpha, BITS)

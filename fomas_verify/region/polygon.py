@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from fomas_verify.enclosure.interval import Interval
-from fomas_verify.enclosure.real import power_of
+from fomas_verify.enclosure.real import power_of, root_of
 from fomas_verify.region.clash import clash
 from fomas_verify.region.levels import enclosed_level, level
 from fomas_verify.region.model import Condition, Region
@@ -25,6 +25,10 @@ MOST_PIECES = 32
 
 MOST_SAMPLES = 400
 """How many numbers of samples are looked at."""
+
+
+class BeyondNumbersError(ArithmeticError):
+    """A corner has a number that is too large or too small to be given."""
 
 
 @dataclass(frozen=True)
@@ -76,7 +80,15 @@ def rooms(region: Region) -> tuple[Room, ...]:
     """What the limits of the region's design leave of each condition; rigorous."""
     design = region.loop.design
     require_complete(design)
-    return tuple(_room(Task(region, strip.condition, Objective.ROBUST, design.limits)) for strip in region.strips)
+    return tuple(_told(Task(region, strip.condition, Objective.ROBUST, design.limits)) for strip in region.strips)
+
+
+def _told(task: Task) -> Room:
+    """What is left, not decided where it has corners that cannot be given."""
+    try:
+        return _room(task)
+    except BeyondNumbersError:
+        return Room(task.condition, (), False, None, None)
 
 
 def _room(task: Task) -> Room:
@@ -150,8 +162,13 @@ def _vertices(
                 yield Vertex(m / power, h)
     for gamma in at_gamma:
         for m in (low, high):
-            if m.lower > 0 and _within(h := power_of(m / gamma, 1 / alpha, BITS), hs):
-                yield Vertex(gamma, h)
+            if m.lower <= 0:
+                continue
+            if (root := root_of(m / gamma, alpha, BITS)) is not None:
+                if _within(root, hs):
+                    yield Vertex(gamma, root)
+            elif not (hs[0] if m.upper < gamma.lower else hs[1]):
+                raise BeyondNumbersError("h of a corner is beyond 2^-8192 or 2^8192")
 
 
 def _within(x: Interval, limits: tuple[Fraction, Fraction | None]) -> bool:

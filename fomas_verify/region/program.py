@@ -88,11 +88,14 @@ def geometric_program(piece: Piece, objective: Objective) -> tuple[float, float]
 
     import cvxpy as cp
 
+    ends = (piece.low, piece.high), piece.gamma, piece.h
+    if any(low >= MOST_LOG or high <= -MOST_LOG for low, high in ends):
+        raise NoAnswerError("a limit is beyond doubles")
     gamma, h, factor = (cp.Variable(pos=True) for _ in range(3))
     m = gamma * h**piece.alpha
     robust = objective is Objective.ROBUST
     both = piece.moves[0] + piece.alpha * piece.moves[1] if robust else 0
-    ranges = ((m, (piece.low, piece.high), both), (gamma, piece.gamma, piece.moves[0]), (h, piece.h, piece.moves[1]))
+    ranges = zip((m, gamma, h), ends, (both, *piece.moves), strict=True)
     constraints = [factor >= 1]
     for x, (low, high), moves in ranges:
         room = factor**moves if robust and moves else 1

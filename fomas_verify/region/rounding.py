@@ -7,9 +7,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
+from fomas_verify.design.fields import fits_a_design
 from fomas_verify.enclosure.digits import rounded_down, rounded_up
 from fomas_verify.enclosure.interval import Interval
-from fomas_verify.enclosure.real import power_of
+from fomas_verify.enclosure.real import LARGEST_LOG, power_of, root_of
 from fomas_verify.kernel.memory import one_step_weight
 from fomas_verify.region.levels import level, settles
 from fomas_verify.region.task import Objective, Task
@@ -44,12 +45,15 @@ def rounded(task: Task, piece: Piece) -> Point | None:
 
 
 def proved(task: Task, gamma: Fraction, h: Fraction, samples: int) -> Point | None:
-    """The point, if it is certain that it satisfies the condition and the limits; None if not. Rigorous.
+    """The point, if it is certain that it satisfies the condition and the limits; None if not, or if a design file
+    cannot hold it. Rigorous.
 
     ``samples``: in how many it is to settle, where settling matters; fewer where the limit of time leaves fewer.
     """
     box, strip = task.box, task.strip
-    if strip is None or not (box.h[0] <= h and (box.h[1] is None or h <= box.h[1])):
+    if strip is None or not (fits_a_design(gamma) and fits_a_design(h)):
+        return None
+    if not (box.h[0] <= h and (box.h[1] is None or h <= box.h[1])):
         return None
     if not (box.gamma_least <= gamma and (box.gamma_sure is None or gamma <= box.gamma_sure)) or gamma <= 0 or h <= 0:
         return None
@@ -144,7 +148,9 @@ def _power(h: Fraction, task: Task) -> Interval:
 
 
 def _root(x: Interval, task: Task) -> Interval:
-    return power_of(x, 1 / task.design.alpha, BITS)
+    """``x^(1/alpha)``, or a number on its way there where that is beyond all that are given."""
+    near = Fraction(2) ** (LARGEST_LOG if x.lower > 1 else -LARGEST_LOG)
+    return root_of(x, task.design.alpha, BITS) or Interval.exactly(near)
 
 
 def _inward(x: Fraction, limits: tuple[Fraction, Fraction | None], digits: int, *, up: bool) -> list[Fraction]:

@@ -42,7 +42,9 @@ def _table(region: Region) -> Iterator[str]:
 def _cut(region: Region) -> Iterator[str]:
     cut = section(region)
     if cut is not None:
-        yield from _aligned([("condition", f"{cut.free} at {cut.at}"), *((x.value, _span(s)) for x, s in cut.spans)])
+        yield from _aligned(
+            [("condition", f"{cut.free} at {cut.at}"), *((x.value, _cut_span(s)) for x, s in cut.spans)]
+        )
 
 
 def _left(region: Region, left: Sequence[Room]) -> Iterator[str]:
@@ -106,6 +108,10 @@ def _opening(strip: Strip) -> str:
     if strip.opening is not None:
         return decimal(strip.opening.alpha, DIGITS)
     return "none" if strip.mu is None else "every"
+
+
+def _cut_span(span: Span | None) -> str:
+    return "an end is beyond 2^-8192 or 2^8192" if span is None else _span(span)
 
 
 def _span(span: Span | None) -> str:

@@ -240,3 +240,15 @@ def test_what_is_proved_to_be_impossible_is_so_where_words_are_hard_to_find(
     assert main(["synthesize", str(path), "--condition", "consensus", "-o", str(tmp_path / "none.toml")]) == 1
     assert "settle_within = 7 with h <= 1e+300 and h >= 7 leaves no number of samples" in capsys.readouterr().out
     assert check((tmp_path / "none.json").read_bytes()).exit_status == 0
+
+
+def test_no_design_is_written_that_a_file_cannot_hold(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """With h free and alpha = 0.01, the slowest h is about 10^100000."""
+    monkeypatch.chdir(tmp_path)
+    path = design(tmp_path, 'gamma = ["1e-1000", 1]', "0.01")
+    call = ["synthesize", str(path), "--objective", "slowest-sampling", "--condition", "consensus", "-o", "best"]
+    assert main(call) == 3
+    assert "neither a design within the limits nor the proof" in capsys.readouterr().err
+    assert [x.name for x in tmp_path.iterdir()] == ["plant.toml"]

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 
 from fomas_verify.cli.app import main
 from fomas_verify.design import DesignError, design_from_mapping
-from fomas_verify.region import Condition, Region, drawing, find_region
+from fomas_verify.region import Condition, Region, drawing, find_region, region_text
 from fomas_verify.region.peak_bound import peak_bound
 from fomas_verify.region.polygon import Room, rooms
 from fomas_verify.spectrum.loop import Loop
@@ -183,3 +183,22 @@ def test_the_figure_shows_the_limits_the_strips_and_the_design() -> None:
     assert sorted(upright) == [0.1, 2]
     assert level == pytest.approx([3 / ERROR])
     assert axes.get_xlim()[0] <= 0.1 <= 2 <= axes.get_xlim()[1]
+
+
+@pytest.mark.parametrize("alpha", ["1e-5", "1e-8", "1/18446744073709551615"])
+def test_an_alpha_near_0_asks_for_no_number_beyond_all_bounds(alpha: str) -> None:
+    """``h = (mu Gamma(alpha + 1) / gamma)^(1/alpha)`` has more digits than memory holds."""
+    widest = ["1e-1200", "1e1200"]
+    inside = left({"h": widest, "gamma": widest}, alpha=alpha)[Condition.GAIN_BOUND]
+    with mpmath.workdps(60):  # D = 2
+        a = mpmath.mpf(Fraction(alpha).numerator) / Fraction(alpha).denominator
+        expected = [float(mpmath.gamma(a + 1) / 2 / mpmath.mpf(h) ** a) for h in widest]
+    assert sorted(float(v.gamma.mid) for v in inside.pieces[0].vertices) == pytest.approx([0, 0, *sorted(expected)])
+    assert {v.h.mid for v in inside.pieces[0].vertices} == set(map(Fraction, widest))
+    further = left({"h": [0, 1], "gamma": ["1/10", 1]}, alpha=alpha)[Condition.GAIN_BOUND]
+    assert (further.pieces, further.clash) == ((), None)
+
+
+def test_what_goes_with_gamma_is_told_in_words_where_it_is_beyond_all_bounds() -> None:
+    design = design_from_mapping({"alpha": "1e-8", "gamma": "0.15", "graph": PAPER})
+    assert "gain-bound  an end is beyond 2^-8192 or 2^8192" in region_text(find_region(design))

@@ -120,3 +120,9 @@ def test_without_the_extra_the_direct_search_runs(
     printed = capsys.readouterr().out
     assert "gamma = 0.1746, h = 0.85" in printed
     assert "geometric program" not in printed
+
+
+@pytest.mark.parametrize("far", [(800.0, 900.0), (-900.0, -800.0)])
+def test_a_limit_beyond_doubles_has_no_answer(far: tuple[float, float]) -> None:
+    found = opinion(Piece(3, 3, 0.5, -2.0, -1.0, (-math.inf, math.inf), far), Objective.GENTLEST)
+    assert (found.agrees, found.reason) == (False, "a limit is beyond doubles")
