@@ -12,6 +12,7 @@ import tomllib
 import zipfile
 import zlib
 from collections.abc import Callable
+from copy import deepcopy
 from random import Random
 
 LARGEST = 1_000_000
@@ -258,8 +259,8 @@ def _change(holder: dict | list, key: object, other: object, random: Random) -> 
         case 0:
             del holder[key]
         case 1:
-            room = LARGEST // len(json.dumps(holder[key], default=str)) + 1
-            holder[key] = [holder[key]] * min(room, random.choice((1, 2, 300)))
+            copies = min(random.choice((1, 2, 300)), LARGEST // len(json.dumps(holder[key], default=str)) + 1)
+            holder[key] = [deepcopy(holder[key]) for _ in range(copies)]
         case 2 if other is not None and (places := _places(other)):
             there, name = random.choice(places)
             holder[key] = json.loads(json.dumps(there[name], default=str))
