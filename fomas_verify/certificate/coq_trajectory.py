@@ -24,6 +24,9 @@ from fomas_verify.certificate.coq_samples import (
 from fomas_verify.claims.verdict import Verdict
 
 CLAIM = "trajectory-norm-bound"
+MOST_BITS = 4096
+"""Of a number of x_0 over its common denominator."""
+
 RUN = "x0_scale x0_power_numbers x0_resolvent_numbers"
 
 
@@ -33,6 +36,9 @@ def trajectory_norm(chapter: Chapter) -> list[Step]:
     if len(components) != 1 or "graph_assumption" not in chapter.known:
         return []
     (x0,) = components
+    state, unit = _state(x0)
+    if max(x.bit_length() for x in (*state, unit)) > MOST_BITS:
+        return []
     if "norm_bound" in chapter.known and chapter.decided(CLAIM, Verdict.PROVED):
         return [_from_every_state(chapter, x0)]
     witness = chapter.decisions[CLAIM].witness

@@ -13,8 +13,9 @@ from typing import cast
 from fomas_verify.checker.definite import exact_sign, least_sign, limit_elimination, quick_sign
 from fomas_verify.checker.designs import Design
 from fomas_verify.checker.field import Root
+from fomas_verify.checker.gain import mu_at
 from fomas_verify.checker.graph import Graph, Rows
-from fomas_verify.checker.powers import Enclosure, first_threshold, gamma_one_plus, outward, point, power
+from fomas_verify.checker.powers import Enclosure, first_threshold, point
 from fomas_verify.checker.resolvent import Kernel, kernel
 from fomas_verify.checker.ruling import Undecided
 
@@ -58,8 +59,7 @@ class Facts:
         design = self.design
         if design.gamma is None or design.h is None:
             return point(cast(Fraction, design.mu))
-        top, below = power(design.h, design.alpha, bits), gamma_one_plus(design.alpha, bits)
-        return outward(design.gamma * top.lower / below.upper, design.gamma * top.upper / below.lower, bits)
+        return mu_at(design.gamma, design.h, design.alpha, bits)
 
     def kernel(self, scale: int) -> Kernel:
         """The memory of the design."""

@@ -13,8 +13,10 @@ from typing import cast
 
 from fomas_verify.checker.designs import Design, Interval, UncertainDesign
 from fomas_verify.checker.powers import Enclosure, gamma_one_plus, outward, point, power
+from fomas_verify.checker.ruling import Undecided
 
 _WIDEST = Fraction(1, 16)
+MAX_NUMBER_BITS = 2**14
 MAX_PARTS = 2**12
 MAX_HALVINGS = 64
 _CLOSE = 1 + Fraction(1, 2**120)
@@ -92,13 +94,15 @@ class Gain:
     def _ends(self, alpha: Fraction, bits: int) -> tuple[Enclosure, Enclosure]:
         """mu at the least, and at the greatest, gamma and h."""
         gamma, h = cast(Interval, self.gamma), cast(Interval, self.h)
-        low = _mu(gamma[0], h[0], alpha, bits)
-        return low, low if gamma[0] == gamma[1] and h[0] == h[1] else _mu(gamma[1], h[1], alpha, bits)
+        low = mu_at(gamma[0], h[0], alpha, bits)
+        return low, low if gamma[0] == gamma[1] and h[0] == h[1] else mu_at(gamma[1], h[1], alpha, bits)
 
 
 @lru_cache(maxsize=64)
-def _mu(gamma: Fraction, h: Fraction, alpha: Fraction, bits: int) -> Enclosure:
+def mu_at(gamma: Fraction, h: Fraction, alpha: Fraction, bits: int) -> Enclosure:
     """gamma h^alpha / Gamma(alpha + 1), 0 <= alpha <= 1."""
+    if max(x.bit_length() for number in (gamma, h) for x in number.as_integer_ratio()) > MAX_NUMBER_BITS:
+        raise Undecided(f"gamma and h of more than {MAX_NUMBER_BITS} bits are beyond the work allowed")
     if alpha in (0, 1):
         return point(gamma * h**alpha.numerator)
     top, below = power(h, alpha, bits), gamma_one_plus(alpha, bits)

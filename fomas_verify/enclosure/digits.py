@@ -9,6 +9,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 from fomas_verify.enclosure.interval import Interval
+from fomas_verify.exact.rational import format_rational
 
 SHORT_DENOMINATOR = 10_000
 FEW_DIGITS = 12
@@ -58,7 +59,7 @@ def exact_decimal(x: Fraction, digits: int) -> str | None:
     scaled = size * Fraction(10) ** (digits - 1 - exponent)
     if scaled.denominator != 1:
         return None
-    text = str(scaled.numerator).rstrip("0")
+    text = format_rational(Fraction(scaled.numerator)).rstrip("0")
     return ("-" if x < 0 else "") + _place(text, exponent, exact=True)
 
 
@@ -81,7 +82,7 @@ def decimal(x: Interval, digits: int) -> str:
         first = _truncated(low, exponent, count)
         if first == _truncated(high, exponent, count):
             return (
-                sign + _place(str(first), exponent, exact=False)
+                sign + _place(format_rational(Fraction(first)), exponent, exact=False)
                 if count >= min(digits, FEW_DIGITS)
                 else _with_radius(x)
             )

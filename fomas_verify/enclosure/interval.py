@@ -97,8 +97,12 @@ class Interval:
         """
         return self if self.is_exact else self.outward(bits)
 
+    def shortened(self, bits: int) -> Interval:
+        """The same, but an exact number stays exact only where its denominator has at most so many bits."""
+        return self if self.is_exact and self.lower.denominator.bit_length() <= bits else self.outward(bits)
+
     def outward(self, bits: int) -> Interval:
-        """The same, an exact number included."""
+        """As `rounded`, an exact number included."""
         size = max(abs(self.lower), abs(self.upper))
         shift = bits + max(0, size.denominator.bit_length() - size.numerator.bit_length())
         return Interval(round_down(self.lower, shift), round_up(self.upper, shift))

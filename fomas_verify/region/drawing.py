@@ -45,7 +45,7 @@ def draw(region: Region, file_format: str) -> bytes:
     Raises
     ------
     DrawingError
-        matplotlib is missing.
+        matplotlib is missing, or a number is beyond what it can draw.
     """
     try:
         import matplotlib
@@ -57,7 +57,12 @@ def draw(region: Region, file_format: str) -> bytes:
     with matplotlib.rc_context(_STYLE):
         figure = Figure(figsize=(5.2, 3.6), layout="constrained")
         axes = figure.add_subplot()
-        _draw(axes, region)
+        try:
+            _draw(axes, region)
+        except (OverflowError, ValueError):
+            raise DrawingError(
+                f"{region.loop.design.source}: --plot draws numbers from 1e-300 to 1e300: gamma, h or a limit is beyond"
+            ) from None
         stream = io.BytesIO()
         figure.savefig(stream, format=file_format, metadata=_NO_DATE[file_format])
     return stream.getvalue()

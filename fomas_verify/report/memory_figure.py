@@ -72,7 +72,7 @@ def memory_figure(loop: Loop) -> MemoryFigure | None:
     """The samples k = 0..50; None where beta does not exist, or the very first are too large to draw. Rigorous."""
     if not loop.assumption1:
         return None
-    beta = loop.beta(_BITS)
+    beta = loop.beta(_BITS).shortened(_BITS)
     left, slack, power = [], [], beta
     for k in range(LAST + 1):
         c = step_response(loop.design.alpha, k + 1, _BITS)
@@ -82,5 +82,5 @@ def memory_figure(loop: Loop) -> MemoryFigure | None:
             left.pop()
             slack.pop()
             break
-        power = (power * beta).rounded(_BITS)
+        power = (power * beta).shortened(_BITS)
     return MemoryFigure(tuple(left), tuple(slack)) if left else None

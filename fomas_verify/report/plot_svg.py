@@ -7,6 +7,7 @@ import math
 from collections.abc import Callable, Iterable, Iterator
 from fractions import Fraction
 
+from fomas_verify.enclosure.digits import rounded_down
 from fomas_verify.report.picture import number
 from fomas_verify.report.plot import Curve, Plot
 
@@ -15,6 +16,10 @@ BANDS = ("#e3e3e3", "#b9cfe4", "#f2cf8d", "#8fc79a", "#2f7f57")
 DASHES = ("", "6 3", "2 2", "7 3 2 3", "7 3 2 3 2 3", "9 5")
 _LEFT, _RIGHT, _TOP, _BOTTOM, _WIDTH, _HEIGHT = 58, 12, 8, 40, 420, 260
 _TICKS = 6
+_DOUBLES = 300
+
+Scale = Callable[[Fraction], float]
+"""From a number to its place on the page."""
 
 
 def svg_plot(plot: Plot, key: str) -> str:
@@ -45,17 +50,19 @@ def band_sample(shade: int) -> str:
     )
 
 
-def _scale(ends: tuple[Fraction, Fraction], log: bool, low: int, high: int) -> Callable[[float], float]:
-    first, last = (math.log10(x) if log else float(x) for x in ends)
-
-    def place(value: float) -> float:
-        z = math.log10(value) if log else value
-        return low + (z - first) / (last - first) * (high - low)
+def _scale(ends: tuple[Fraction, Fraction], log: bool, low: int, high: int) -> Scale:
+    def place(value: Fraction) -> float:
+        first, z, last = (_log10(x) if log else x for x in (ends[0], value, ends[1]))
+        return low + float((z - first) / (last - first)) * (high - low)
 
     return place
 
 
-def _axes(plot: Plot, x: Callable[[float], float], y: Callable[[float], float]) -> Iterator[str]:
+def _log10(x: Fraction) -> float:
+    return math.log10(x.numerator) - math.log10(x.denominator)
+
+
+def _axes(plot: Plot, x: Scale, y: Scale) -> Iterator[str]:
     bottom, right = _HEIGHT - _BOTTOM, _WIDTH - _RIGHT
     for value, text in _ticks(plot.x_range, log=plot.x_log):
         at = number(x(value))
@@ -73,18 +80,23 @@ def _axes(plot: Plot, x: Callable[[float], float], y: Callable[[float], float]) 
         yield f'<text {turned} text-anchor="middle">{html.escape(plot.y_label)}</text>'
 
 
-def _ticks(ends: tuple[Fraction, Fraction], *, log: bool) -> Iterator[tuple[float, str]]:
-    low, high = (float(x) for x in ends)
+def _ticks(ends: tuple[Fraction, Fraction], *, log: bool) -> Iterator[tuple[Fraction, str]]:
+    low, high = ends
     if log:
-        first, last = math.ceil(math.log10(low) - 1e-9), math.floor(math.log10(high) + 1e-9)
+        first, last = math.ceil(_log10(low) - 1e-9), math.floor(_log10(high) + 1e-9)
         step = max(1, -(-(last - first) // _TICKS))
         for power in range(first, last + 1, step):
-            yield 10.0**power, _power(power)
+            yield Fraction(10) ** power, _power(power)
         return
-    size = 10.0 ** math.floor(math.log10((high - low) / _TICKS))
+    size = Fraction(10) ** math.floor(_log10((high - low) / _TICKS))
     width = next(size * m for m in (1, 2, 5, 10) if (high - low) / (size * m) <= _TICKS)
-    for i in range(math.ceil(low / width - 1e-9), math.floor(high / width + 1e-9) + 1):
-        yield i * width, f"{i * width:.6g}".replace("-", "\N{MINUS SIGN}")
+    for i in range(math.ceil(low / width), math.floor(high / width) + 1):
+        yield i * width, _decimal(i * width).replace("-", "\N{MINUS SIGN}")
+
+
+def _decimal(x: Fraction) -> str:
+    """A tick's number, which no double need hold."""
+    return rounded_down(x, 6) if x and abs(_log10(abs(x))) > _DOUBLES else f"{float(x):.6g}"
 
 
 def _power(power: int) -> str:
@@ -94,27 +106,27 @@ def _power(power: int) -> str:
     return f'10<tspan dy="-0.45em" font-size="8">{sign}{abs(power)}</tspan>'
 
 
-def _drawn(plot: Plot, x: Callable[[float], float], y: Callable[[float], float]) -> Iterator[str]:
+def _drawn(plot: Plot, x: Scale, y: Scale) -> Iterator[str]:
     for band in plot.bands:
         (x1, x2), (l1, l2), (u1, u2) = plot.x_range, band.lower, band.upper
         corners = [(x1, l1), (x2, l2), (x2, u2), (x1, u1)]
-        points = " ".join(f"{number(x(float(a)))},{number(y(float(b)))}" for a, b in corners)
+        points = " ".join(f"{number(x(a))},{number(y(b))}" for a, b in corners)
         yield f'<polygon points="{points}" fill="{BANDS[band.shade]}" stroke="#666" stroke-width="0.4"/>'
     for level in plot.levels:
-        yield f'<path d="M{_LEFT} {number(y(float(level)))}H{_WIDTH - _RIGHT}" class="line" stroke-dasharray="5 3"/>'
+        yield f'<path d="M{_LEFT} {number(y(level))}H{_WIDTH - _RIGHT}" class="line" stroke-dasharray="5 3"/>'
     for curve in plot.curves:
         if plot.table is not None:
             pairs = zip(plot.table.columns[plot.x], plot.table.columns[curve.column], strict=True)
             yield from _curve(curve, _pieces(plot, pairs, x, y))
     if plot.marked is not None:
-        yield f'<circle cx="{number(x(float(plot.marked[0])))}" cy="{number(y(float(plot.marked[1])))}" r="4"/>'
+        yield f'<circle cx="{number(x(plot.marked[0]))}" cy="{number(y(plot.marked[1]))}" r="4"/>'
 
 
 def _pieces(
     plot: Plot,
     pairs: Iterable[tuple[Fraction | None, Fraction | None]],
-    x: Callable[[float], float],
-    y: Callable[[float], float],
+    x: Scale,
+    y: Scale,
 ) -> list[list[tuple[float, float]]]:
     """The points to draw, in runs without a gap."""
     pieces: list[list[tuple[float, float]]] = [[]]
@@ -122,7 +134,7 @@ def _pieces(
         if a is None or b is None or (plot.y_log and b <= 0):
             pieces.append([])
         else:
-            pieces[-1].append((x(float(a)), y(float(b))))
+            pieces[-1].append((x(a), y(b)))
     return [piece for piece in pieces if piece]
 
 

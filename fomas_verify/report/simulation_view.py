@@ -72,15 +72,15 @@ def simulation_view(proof: Proof) -> SimulationView | None:
 
 def _samples(loop: Loop, rows: list[list[Fraction]]) -> list[States]:
     """``x_0, x_1, ...``."""
-    mu, laplacian = loop.mu(_BITS), exact.to_rows(loop.laplacian)
+    mu, laplacian = loop.mu(_BITS).shortened(_BITS), exact.to_rows(loop.laplacian)
     heard = [[(j, a) for j, a in enumerate(row) if a] for row in laplacian]
-    found: list[States] = [[[Interval.exactly(x) for x in row] for row in rows]]
+    found: list[States] = [[[Interval.exactly(x).shortened(_BITS) for x in row] for row in rows]]
     most = max(abs(x) for row in rows for x in row) * _DIVERGED
     for _ in range(LAST):
         x = found[-1]
         e = [_applied(heard, row) for row in x]
         following = [
-            [(a - mu * b).rounded(_BITS) for a, b in zip(old, error, strict=True)]
+            [(a - mu * b).shortened(_BITS) for a, b in zip(old, error, strict=True)]
             for old, error in zip(x, e, strict=True)
         ]
         if max(abs(y.mid) for row in following for y in row) > most:
@@ -121,7 +121,7 @@ def _dense(loop: Loop, states: list[States], inputs: list[States] | None) -> tup
     """The states at the samples and, where h and gamma are given, at three points between; times in periods."""
     times = [Fraction(k) for k in range(len(states))]
     design = loop.design
-    if inputs is None or design.h is None:
+    if inputs is None or design.h is None or len(states) == 1:
         return states, times
     weight, count = one_step_weight(design.alpha, design.h, _BITS), len(states) - 1
     points: dict[Fraction, States] = dict(zip(times, states, strict=True))

@@ -17,6 +17,7 @@ from scipy import sparse
 from fomas_verify.design import Design
 from fomas_verify.kernel.memory import one_step_weight
 from fomas_verify.simulate.convolution import approx_product
+from fomas_verify.simulate.errors import SimulationError
 from fomas_verify.simulate.memory import Array, approx_step_response
 
 BITS = 128
@@ -67,6 +68,8 @@ def plant_of(design: Design) -> Plant:
     ------
     DesignError
         The design gives no x0, no h, or neither gamma nor mu.
+    SimulationError
+        One of its numbers is beyond doubles.
     """
     design.needs("x0", command="simulate")
     design.needs("h", command="simulate")
@@ -75,9 +78,14 @@ def plant_of(design: Design) -> Plant:
         raise TypeError("a plant needs x0 and h")
     weight = one_step_weight(design.alpha, design.h, BITS).mid
     gamma = design.gamma if design.gamma is not None else (design.mu or Fraction(0)) / weight
-    x0 = np.array([[float(x) for x in row] for row in design.x0])
-    laplacian = _laplacian(design)
-    return Plant(float(design.alpha), float(gamma), float(design.h), float(weight), laplacian, x0)
+    try:
+        x0 = np.array([[float(x) for x in row] for row in design.x0])
+        laplacian = _laplacian(design)
+        return Plant(float(design.alpha), float(gamma), float(design.h), float(weight), laplacian, x0)
+    except OverflowError:
+        raise SimulationError(
+            f"{design.source}: simulate needs numbers below 1e308: one of x0, gamma, h, h^alpha and the weights is not"
+        ) from None
 
 
 def _laplacian(design: Design) -> Any:

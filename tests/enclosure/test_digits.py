@@ -110,3 +110,9 @@ def test_rounding_to_the_safe_side(x: Fraction, scale: int, digits: int, minus: 
 
 def test_zero_rounds_to_zero() -> None:
     assert (rounded_down(Fraction(0), 3), rounded_up(Fraction(0), 3), exact_decimal(Fraction(0), 3)) == ("0", "0", "0")
+
+
+def test_more_digits_than_the_interpreter_writes_at_once() -> None:
+    third = decimal(Interval(Fraction(1, 3) - Fraction(1, 10**5001), Fraction(1, 3)), 5000)
+    assert third == f"0.{'3' * 5000}..."
+    assert exact_decimal(Fraction(10**4999 + 1), 5000) == f"1.{'0' * 4998}1e+4999"

@@ -9,7 +9,7 @@ import pytest
 
 from fomas_verify.certificate.coq import CoqFile, CoqLimitError, coq_file, module_name
 from fomas_verify.claims.verdict import Decision, Verdict
-from fomas_verify.design import read_design
+from fomas_verify.design import parse_design, read_design
 from fomas_verify.prover import Proof, prove
 from tests.proofs.test_axioms import needs_coq, reduced, refused
 
@@ -245,3 +245,11 @@ def test_a_file_of_any_name_compiles_and_can_be_required(proof: Callable[[str], 
     uses = "".join(f"Require {module}.\nCheck {module}.certified.\n" for module in sorted(modules))
     run = coqc("Uses", uses)
     assert run.returncode == 0, run.stderr[-2000:]
+
+
+def test_an_initial_state_of_long_numbers_is_left_out() -> None:
+    x0 = ", ".join(f'"1/{10**1200 + i}"' for i in range(5))
+    design = parse_design(EXCEEDING.replace("[0,-1,-1,-1,1]", f"[{x0}]"), "toml", "long.toml")
+    proof = prove(design)
+    decided = proof.decisions["trajectory-norm-bound"].verdict
+    assert f"trajectory-norm-bound ({decided.value})" in coq_file(proof.loop, proof.decisions).omitted

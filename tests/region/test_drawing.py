@@ -88,3 +88,12 @@ def test_without_matplotlib_the_extra_is_named(monkeypatch: pytest.MonkeyPatch, 
     assert call(monkeypatch, "--plot", tmp_path / "strips.png", "-o", tmp_path / "region.json") == 2
     assert "pip install 'fomas_verify[plot]'" in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    "numbers", [{"h": "1e-1200"}, {"h": "1e1200"}, {"gamma": "1e1200"}, {"limits": {"h": ["1e-400", 1]}}]
+)
+def test_what_no_figure_can_show_is_refused(numbers: dict[str, Any]) -> None:
+    given = {"alpha": "9/10", "gamma": "1/10", "h": 1, "graph": {"family": "path", "agents": 3}, **numbers}
+    with pytest.raises(drawing.DrawingError, match=r"^design: --plot draws numbers from 1e-300 to 1e300: "):
+        drawing.draw(find_region(design_from_mapping(given)), "svg")

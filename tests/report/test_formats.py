@@ -8,18 +8,25 @@ import shutil
 import subprocess
 import sys
 import unicodedata
+from fractions import Fraction
 from html.parser import HTMLParser
 from pathlib import Path
 
 import pytest
 
-from fomas_verify.prover import Proof
+from fomas_verify.design import parse_design
+from fomas_verify.prover import Proof, prove
 from fomas_verify.report import compilation, html_page, write_report
+from fomas_verify.report.checked import Checked
 from fomas_verify.report.compilation import Compilation, compile_latex
-from fomas_verify.report.latex_text import escape
+from fomas_verify.report.latex_text import Tex, escape
 from fomas_verify.report.latex_tree import UnknownLatexError, tree
 from fomas_verify.report.markdown_text import escaped
 from fomas_verify.report.missing import MissingExtraError
+from fomas_verify.report.model import report_model
+from fomas_verify.report.plot import Curve, Plot, Table
+from fomas_verify.report.plot_svg import svg_plot
+from fomas_verify.report.rendering import render
 from tests.report.designs import DESIGNS, HOSTILE, complaints, needs_latex, proof_of, rendered
 
 pytestmark = pytest.mark.slow
@@ -266,3 +273,31 @@ def test_a_phone_scrolls_no_page_sideways(paper: Proof, tmp_path: Path) -> None:
     width, formulas = map(int, re.search(r"<title>(\d+) (\d+)</title>", run.stdout).groups())
     assert width <= 390
     assert formulas > 100
+
+
+@pytest.mark.parametrize("power", [-1200, -3, 0, 4, 1200])
+@pytest.mark.parametrize("log", [False, True])
+def test_a_diagram_of_any_size_has_its_points_in_place(power: int, log: bool) -> None:
+    """From (1, 100) to (100, 1) times a power of ten, through (10, 10)."""
+    unit = Fraction(10) ** power
+    ends = (unit, 100 * unit)
+    table = Table("", {"x": [unit, 10 * unit, 100 * unit], "y": [100 * unit, 10 * unit, unit]})
+    curve = Curve("y", "line", 0)
+    text = svg_plot(Plot(Tex(""), "x", ends, ends, table, "x", (curve,), x_log=log, y_log=log), "key")
+    middle = "233 114" if log else "89.82 200.73"  # half way, or 9 of 99
+    assert f'd="M58 8 {middle} 408 220"' in text
+    ticks = re.findall(r'class="grid"/><text[^>]*>(.*?)</text>', text)
+    if log:
+        assert len(ticks) == 6
+    else:
+        numbers = [Fraction(x.replace("\N{MINUS SIGN}", "-")) for x in ticks]
+        assert numbers == [20 * i * unit for i in range(1, 6)] * 2
+
+
+@pytest.mark.parametrize("numbers", ["gamma = 1e1200\nx0 = [1, 2, 3]", "gamma = 0.1\nx0 = ['1e1200', 0, '1e-1200']"])
+@pytest.mark.parametrize("form", ["html", "latex", "md"])
+def test_numbers_beyond_doubles_are_reported(numbers: str, form: str) -> None:
+    """With the first gain the loop passes every bound at its first sample."""
+    text = f"alpha = 0.9\nh = 0.5\n{numbers}\n[graph]\nfamily = 'path'\nagents = 3\n"
+    proof = prove(parse_design(text, "toml", "far.toml"))
+    assert "The closed loop" in render([report_model(proof, "{}", Checked(0, 0, ()), "verify-design report x")], form)

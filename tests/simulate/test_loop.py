@@ -13,6 +13,7 @@ from mpmath import mp
 from fomas_verify.design import Design, design_from_mapping
 from fomas_verify.network import family
 from fomas_verify.simulate import MEMORYLESS, PROPOSED, Law, Plant, loop, plant_of, simulate, simulate_own, truncated
+from fomas_verify.simulate.errors import SimulationError
 from fomas_verify.simulate.loop import LARGEST, with_between
 from tests.simulate.designs import PAPER, random_design
 from tests.simulate.direct import Direct
@@ -214,3 +215,10 @@ def test_a_controller_of_ones_own_that_explodes_is_stopped(plant: Plant) -> None
     assert run.stopped
     assert np.isfinite(run.states).all()
     assert run.states.shape == run.inputs.shape
+
+
+@pytest.mark.parametrize("numbers", [{"h": "1e1200"}, {"gamma": "1e1200"}, {"x0": [["1e1200"], [0]]}])
+def test_a_number_beyond_doubles_is_refused(numbers: dict[str, Any]) -> None:
+    given = {"alpha": "1/2", "gamma": 1, "h": 1, "x0": [0, 1], "graph": {"family": "path", "agents": 2}, **numbers}
+    with pytest.raises(SimulationError, match=r"^design: simulate needs numbers below 1e308"):
+        plant_of(design_from_mapping(given))
