@@ -66,12 +66,12 @@ def exact_decimal(x: Fraction, digits: int) -> str | None:
 def decimal(x: Interval, digits: int) -> str:
     """The number to at most ``digits`` certified significant digits, truncated; an exact short decimal without dots.
 
-    An exact fraction of small denominator is printed as it is. Where the enclosure straddles a short decimal, so
+    An exact fraction of small denominator and few digits is printed as it is. Where the enclosure straddles a short decimal, so
     that no digit of the truncated number is certain, that decimal and a radius: ``0.2 +- 1e-38``.
     """
     if x.is_exact and (text := exact_decimal(x.lower, digits)) is not None:
         return text
-    if x.is_exact and x.lower.denominator < SHORT_DENOMINATOR:
+    if x.is_exact and x.lower.denominator < SHORT_DENOMINATOR and abs(x.lower.numerator) < 10**digits:
         return f"{x.lower.numerator}/{x.lower.denominator}"
     if x.lower <= 0 <= x.upper:
         return _with_radius(x)

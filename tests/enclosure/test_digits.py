@@ -81,6 +81,8 @@ def test_without_dots_the_number_is_exact(x: Fraction, scale: int, minus: bool) 
         ("1e-8", "1e-8"),
         ("1.25e-300", "1.25e-300"),
         ("1.25e300", "1.25e+300"),
+        ("9" * 999, "9.999999999...e+998"),
+        ("1234567890123/7", "1.763668414...e+11"),
     ],
 )
 def test_exact_numbers(x: str, text: str) -> None:
