@@ -66,8 +66,8 @@ def exact_decimal(x: Fraction, digits: int) -> str | None:
 def decimal(x: Interval, digits: int) -> str:
     """The number to at most ``digits`` certified significant digits, truncated; an exact short decimal without dots.
 
-    An exact fraction of small denominator and few digits is printed as it is. Where the enclosure straddles a short decimal, so
-    that no digit of the truncated number is certain, that decimal and a radius: ``0.2 +- 1e-38``.
+    An exact fraction of small denominator and few digits is printed as it is. Where the enclosure straddles a short
+    decimal, so that no digit of the truncated number is certain, that decimal and a radius: ``0.2 +- 1e-38``.
     """
     if x.is_exact and (text := exact_decimal(x.lower, digits)) is not None:
         return text
