@@ -59,4 +59,4 @@ def largest(vectors: Sequence[Vector]) -> int:
 @lru_cache(maxsize=256)
 def _halves(count: int, width: int) -> int:
     """2^(w - 1) at each of so many places."""
-    return sum(1 << (j + 1) * width - 1 for j in range(count))
+    return int.from_bytes((bytes(width // 8 - 1) + b"\x80") * count, "little")

@@ -9,11 +9,14 @@ from functools import lru_cache
 from operator import mul
 from typing import Protocol
 
+from fomas_verify.checker.packed import packed, unpacked, width_of
 from fomas_verify.checker.powers import power
 from fomas_verify.checker.ruling import Undecided
 
 MAX_SAMPLES = 2**15
 _GUARD = 32
+_BLOCK = 256
+"""So many products one by one cost less than packing them."""
 
 Pair = tuple[int, int]
 
@@ -42,7 +45,9 @@ class Kernel:
         self._powers: list[Pair] = [(0, 0), (one, one)]
         self._resolvent = [1 << scale]
         self._weights: list[int] = []
+        self._errors: list[int] = []
         self._missed = 1
+        self._far = [0] * _BLOCK
 
     def step_response(self, n: int) -> Pair:
         """c_n, n >= 0. Rigorous."""
@@ -56,11 +61,36 @@ class Kernel:
         each n, goes through the same recursion: r_n <= 1 of it for each sample before.
         """
         while len(self._resolvent) <= n:
-            lower, upper = self._weight(len(self._resolvent))
-            self._weights.append(lower)
-            self._missed += upper - lower
-            self._resolvent.append(sum(map(mul, self._weights, reversed(self._resolvent))) >> self.scale)
+            k = len(self._resolvent)
+            self._weigh(k)
+            self._missed += self._errors[k - 1]
+            start = k - k % _BLOCK
+            if k == start:
+                self._carry(k)
+            near = sum(map(mul, self._weights, reversed(self._resolvent[start:])))
+            self._resolvent.append(self._far[k] + near >> self.scale)
         return self._resolvent[n], self._resolvent[n] + n * self._missed
+
+    def _carry(self, k: int) -> None:
+        """Add what r_{k-m}, ..., r_{k-1} give to the sums of r_k, ..., r_{k+m-1}, m the largest power of 2 in k.
+
+        Every pair of samples of two blocks meets in one such product: k is the middle of the least dyadic interval that
+        holds both. Of packed integers it takes fewer steps than the products one by one; it is exact.
+        """
+        m = k & -k
+        self._weigh(min(2 * m - 1, MAX_SAMPLES + 1))
+        width = width_of(2 * self.scale + 2 * MAX_SAMPLES.bit_length())
+        product = packed(self._resolvent[k - m : k], width) * packed(self._weights[: 2 * m - 1], width)
+        self._far += [0] * (k + m - len(self._far))
+        for i, entry in enumerate(unpacked(product, 2 * m - 1, width)[m - 1 :], k):
+            self._far[i] += entry
+
+    def _weigh(self, n: int) -> None:
+        """Make the bounds of abs f(1), ..., abs f(n)."""
+        while len(self._weights) < n:
+            lower, upper = self._weight(len(self._weights) + 1)
+            self._weights.append(lower)
+            self._errors.append(upper - lower)
 
     def decay(self, n: int, m: int) -> Pair:
         """c_(n+m) / c_n. Rigorous."""

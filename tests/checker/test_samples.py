@@ -164,3 +164,19 @@ def test_characteristic_polynomial() -> None:
     """det(z - F/3) for F = [[1, 2], [3, 4]]: z^2 - 5/3 z - 2/9."""
     found: Any = characteristic([[1, 2], [3, 4]], 3)
     assert found == (-2, -15, 9)
+
+
+@pytest.mark.parametrize("alpha", [Fraction(1, 10), Fraction(9, 10)])
+def test_the_resolvent_by_blocks_is_that_of_the_sums_one_by_one(alpha: Fraction) -> None:
+    """1/(1 - sum abs f(j) z^j), to the last integer: the sums of whole products are rounded once each."""
+    memory = Kernel(alpha, 128)
+    found = [memory.resolvent(n) for n in range(1400)]
+    weights = [memory._weight(j)[0] for j in range(1, 1400)]
+    one_by_one = [1 << 128]
+    for n in range(1, 1400):
+        one_by_one.append(sum(weights[j - 1] * one_by_one[n - j] for j in range(1, n + 1)) >> 128)
+    assert [lower for lower, _ in found] == one_by_one
+    true = resolvent(str(alpha), 1399)
+    with mpmath.workdps(DIGITS):
+        assert all(low <= r * 2**128 <= high for (low, high), r in zip(found, true, strict=True))
+    assert all(high - low <= 2**24 for low, high in found)
