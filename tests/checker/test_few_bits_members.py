@@ -32,7 +32,7 @@ TINY = mpmath.mpf(10) ** -50
 @pytest.fixture(autouse=True)
 def _few_bits(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """No guard bits."""
-    cached = (powers.power, powers.gamma_one_plus, powers._log, gain._mu)
+    cached = (powers.power, powers.gamma_one_plus, powers._log, gain.mu_at)
     for function in cached:
         function.cache_clear()
     monkeypatch.setattr(powers, "_GUARD", 0)
