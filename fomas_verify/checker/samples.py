@@ -19,7 +19,7 @@ from fomas_verify.checker.ruling import Undecided
 
 MAX_SAMPLE_WORK = 2**36
 MAX_SAMPLE_BITS = 5 * 2**19
-"""20 480 samples at 128 bits, and fewer at more: the memory of n samples takes n^2 products."""
+"""20 480 samples at 128 bits, and fewer at more: the memory of n samples takes up to n^1.6 of its products."""
 
 GUARD = 64
 

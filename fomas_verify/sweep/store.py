@@ -98,7 +98,7 @@ def _manifest(folder: Path) -> dict[str, Any] | None:
         return None
     except OSError as error:
         raise SweepError(f"{path}: expected a readable file: {error.strerror}") from None
-    except ValueError:
+    except (ValueError, RecursionError):
         found = None
     if not isinstance(found, dict) or found.get("format") != FORMAT or not isinstance(found.get("plan"), dict):
         raise SweepError(f"{path}: expected the description of a sweep ({FORMAT}), got something else")

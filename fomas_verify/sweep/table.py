@@ -6,6 +6,7 @@ from pathlib import Path
 from threading import Lock
 from typing import Any
 
+from fomas_verify.exact.errors import out_of_memory, source_name
 from fomas_verify.sweep.errors import SweepError
 from fomas_verify.sweep.plan import Plan
 from fomas_verify.sweep.rows import VALUES, decide_rows
@@ -54,11 +55,22 @@ def compute_part(plan: Plan, part: int) -> bytes:
 
 
 def columns_of(path: Path, names: list[str]) -> Any:
-    """Some columns of a part. No thread is started, which pyarrow waits for in vain where a limit leaves no memory."""
+    """Some columns of a part, their checksums verified; raises `SweepError` where it is damaged.
+
+    No thread is started, which pyarrow waits for in vain where a limit leaves no memory.
+    """
+    import pyarrow as pa
     import pyarrow.parquet as pq
 
-    with pq.ParquetFile(path) as file:
-        return file.read(columns=names, use_threads=False)
+    try:
+        with pq.ParquetFile(path, page_checksum_verification=True) as file:
+            return file.read(columns=names, use_threads=False)
+    except (OSError, pa.ArrowException) as error:
+        if out_of_memory(error) or isinstance(error, MemoryError):
+            raise
+        raise SweepError(
+            f"{source_name(path)}: expected a whole part, got a damaged one: without it, the same call computes it again"
+        ) from None
 
 
 def is_whole(plan: Plan, part: int, path: Path) -> bool:

@@ -110,8 +110,24 @@ def test_other_files_are_not_mixed_with_rows(sweep, write_grid, done, tmp_path: 
     assert [(path.name, path.read_text()) for path in other.iterdir()] == [(name, "mine")]
 
 
-def test_a_manifest_that_is_none_is_refused(sweep, done) -> None:
-    (done[1] / "_sweep.json").write_text("{")
+def test_a_part_of_damaged_pages_is_refused(sweep, done) -> None:
+    grid, folder = done
+    (file,) = folder.glob("part-*")
+    column = pq.read_metadata(file).row_group(0).column(pq.read_schema(file).names.index("status"))
+    data = bytearray(file.read_bytes())
+    data[(column.dictionary_page_offset or column.data_page_offset) + column.total_compressed_size - 1] ^= 0xFF
+    file.write_bytes(data)
+    status, _, err = ended(sweep(grid, "-o", folder))
+    assert (status, err.count("\n")) == (2, 1)
+    assert "expected a whole part, got a damaged one: without it, the same call computes it again" in err
+    assert file.read_bytes() == data
+    file.unlink()
+    assert ended(sweep(grid, "-o", folder))[0] == 0
+
+
+@pytest.mark.parametrize("text", ["{", "[" * 200_000])
+def test_a_manifest_that_is_none_is_refused(sweep, done, text: str) -> None:
+    (done[1] / "_sweep.json").write_text(text)
     status, _, err = ended(sweep(done[0], "-o", done[1]))
     assert status == 2
     assert "_sweep.json: expected the description of a sweep" in err
