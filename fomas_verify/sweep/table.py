@@ -69,7 +69,7 @@ def columns_of(path: Path, names: list[str]) -> Any:
         if out_of_memory(error) or isinstance(error, MemoryError):
             raise
         raise SweepError(
-            f"{source_name(path)}: expected a whole part, got a damaged one: without it, the same call computes it again"
+            f"{source_name(path)}: expected a whole part, got a damaged one: without it the same call computes it again"
         ) from None
 
 
