@@ -200,8 +200,9 @@ def wait_until_gone(process: int) -> None:
         time.sleep(0.05)
 
 
-# The tests look for what is left of a run in /proc, which macOS has not; the limits themselves do not need it.
-needs_proc = pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="the system shows no processes in /proc")
+needs_proc = pytest.mark.skipif(
+    not Path("/proc/self/task").exists(), reason="what is left of a run is looked for in /proc, which macOS has not"
+)
 
 
 @needs_proc

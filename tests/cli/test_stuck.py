@@ -44,8 +44,7 @@ def test_processes_are_seen_by_group_and_a_change_begins_anew(monkeypatch: pytes
     assert [watch.stuck() for _ in range(4)] == [False, False, False, True]
 
 
-# Only Linux lets one process read another's limit; elsewhere a run that asks in vain is not noticed.
-@pytest.mark.skipif(not hasattr(resource, "prlimit"), reason="no limit of another process can be read")
+@pytest.mark.skipif(not hasattr(resource, "prlimit"), reason="only Linux lets one process read another's limit")
 def test_a_real_process_is_read() -> None:
     code = (
         "import resource, sys; resource.setrlimit(resource.RLIMIT_AS, (1 << 32, 1 << 32)); print(flush=True); input()"

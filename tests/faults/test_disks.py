@@ -20,8 +20,7 @@ from .processes import told
 
 pytestmark = [
     pytest.mark.slow,
-    # They fill a tmpfs, mount read-only and drop a capability, none of which another system can.
-    pytest.mark.skipif(sys.platform != "linux", reason="limits and capabilities as Linux has them"),
+    pytest.mark.skipif(sys.platform != "linux", reason="a tmpfs is filled and a capability dropped, as Linux can"),
 ]
 CAP_DAC_OVERRIDE, PR_CAPBSET_DROP = 1, 24
 

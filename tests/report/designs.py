@@ -31,8 +31,7 @@ DESIGNS = {
     "ring of 100": "name = 'ring of 100'\nalpha = 0.9\ngamma = 0.15\nh = 0.85\n"
     "[graph]\nfamily = 'directed-cycle'\nagents = 100\n",
 }
-# `make test` installs LaTeX where it can; elsewhere every test but those of a PDF is still worth its run.
-needs_latex = pytest.mark.skipif(shutil.which("pdflatex") is None, reason="pdflatex is missing")
+needs_latex = pytest.mark.skipif(shutil.which("pdflatex") is None, reason="no LaTeX: `make test` installs it if it can")
 
 
 @cache

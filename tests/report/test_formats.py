@@ -254,8 +254,7 @@ def test_calls_that_do_not_go_together(arguments: list[str], said: str, checkout
     assert not (tmp_path / "out").exists()
 
 
-# Only a browser lays out a page; `make test` installs it where it can, and says what it leaves out where it cannot.
-@pytest.mark.skipif(shutil.which("chromium") is None, reason="chromium is missing")
+@pytest.mark.skipif(shutil.which("chromium") is None, reason="no browser: `make test` installs it where it can")
 def test_a_phone_scrolls_no_page_sideways(paper: Proof, tmp_path: Path) -> None:
     """The page in a frame of 390 pixels, asked by the page around it how wide it is."""
     page = html.escape(written([paper], tmp_path, "html"))

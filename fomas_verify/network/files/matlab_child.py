@@ -14,6 +14,9 @@ from typing import Any, Final
 
 CLASSES: Final = ("double", "single", "logical", "sparse", *(f"{u}int{n}" for u in ("", "u") for n in (8, 16, 32, 64)))
 
+HDF5: Final = 2
+"""scipy's number of MATLAB's version 7.3, which it does not read."""
+
 
 def other(shape: tuple[int, ...], kind: str) -> str:
     """What a variable is; empty where it is a square matrix of numbers."""
@@ -25,8 +28,11 @@ def other(shape: tuple[int, ...], kind: str) -> str:
 def told(path: str, variable: str | None) -> tuple[dict[str, Any], list[Any]]:
     """The variables and what each is, and the arrays of the one that is named or is the only square matrix."""
     from scipy.io import loadmat, whosmat
+    from scipy.io.matlab import matfile_version
     from scipy.sparse import issparse
 
+    if matfile_version(path)[0] == HDF5:
+        return {"newer": True}, []
     found = {name: other(shape, kind) for name, shape, kind in whosmat(path)}
     square = [name for name, words in found.items() if not words]
     chosen = variable if variable is not None else square[0] if len(square) == 1 else None
@@ -50,8 +56,6 @@ def main() -> None:
     path, *variable = sys.argv[1:]
     try:
         record, arrays = told(path, variable[0] if variable else None)
-    except NotImplementedError:  # scipy's word for a file of version 7.3, which is HDF5: the user is told of it
-        record, arrays = {"newer": True}, []
     except Exception as error:  # a damaged file can make a library raise anything
         record, arrays = {"error": " ".join(f"{error}".split()) or type(error).__name__}, []
     out = sys.stdout.buffer
