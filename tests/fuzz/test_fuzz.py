@@ -16,7 +16,7 @@ from .campaign import Figures, campaign
 from .targets import REFUSAL, TARGETS, draw
 
 FAILED = sorted((Path(__file__).parent / "failed").iterdir())
-COUNTS = {"design": 1500, "graph": 700, "grid": 1500, "certificate": 400, "gate": 400, "prove": 120, "report": 25}
+COUNTS = {"design": 1500, "graph": 1500, "grid": 1500, "certificate": 400, "gate": 400, "prove": 120, "report": 25}
 
 
 @pytest.mark.parametrize("path", FAILED, ids=lambda path: path.stem)
