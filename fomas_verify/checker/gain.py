@@ -13,10 +13,8 @@ from typing import cast
 
 from fomas_verify.checker.designs import Design, Interval, UncertainDesign
 from fomas_verify.checker.powers import Enclosure, gamma_one_plus, outward, point, power
-from fomas_verify.checker.ruling import Undecided
 
 _WIDEST = Fraction(1, 16)
-MAX_NUMBER_BITS = 2**14
 MAX_PARTS = 2**12
 MAX_HALVINGS = 64
 _CLOSE = 1 + Fraction(1, 2**120)
@@ -101,8 +99,6 @@ class Gain:
 @lru_cache(maxsize=64)
 def mu_at(gamma: Fraction, h: Fraction, alpha: Fraction, bits: int) -> Enclosure:
     """gamma h^alpha / Gamma(alpha + 1), 0 <= alpha <= 1."""
-    if max(x.bit_length() for number in (gamma, h) for x in number.as_integer_ratio()) > MAX_NUMBER_BITS:
-        raise Undecided(f"gamma and h of more than {MAX_NUMBER_BITS} bits are beyond the work allowed")
     if alpha in (0, 1):
         return point(gamma * h**alpha.numerator)
     top, below = power(h, alpha, bits), gamma_one_plus(alpha, bits)

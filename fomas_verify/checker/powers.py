@@ -79,9 +79,9 @@ def outward(lower: Fraction, upper: Fraction, bits: int) -> Enclosure:
     """An enclosure of [lower, upper], both > 0, its ends of bits + 8 bits: short numbers make short matrices."""
     ends = []
     for x, up in ((lower, False), (upper, True)):
-        scale = Fraction(2) ** (bits + 8 + x.denominator.bit_length() - x.numerator.bit_length())
-        scaled = x * scale
-        ends.append(_div(scaled.numerator, scaled.denominator, up) / scale)
+        shift = bits + 8 + x.denominator.bit_length() - x.numerator.bit_length()
+        units = _div(x.numerator << max(shift, 0), x.denominator << max(-shift, 0), up)
+        ends.append(Fraction(units << max(-shift, 0), 1 << max(shift, 0)))
     return Enclosure(ends[0], ends[1])
 
 
@@ -100,9 +100,10 @@ def _div(a: int, b: int, up: bool) -> int:
 def _log(x: Fraction, w: int) -> tuple[int, int]:
     """Bounds of log x, x > 0: with x = 2^e m, 1 <= m < 2, log x = e log 2 + 2 atanh((m - 1)/(m + 1))."""
     e = x.numerator.bit_length() - x.denominator.bit_length()
-    e -= x < Fraction(2) ** e
-    m = x / Fraction(2) ** e
-    z = (m - 1) / (m + 1)
+    above, below = x.numerator << max(-e, 0), x.denominator << max(e, 0)
+    if above < below:
+        e, above = e - 1, 2 * above
+    z = Fraction(above - below, above + below)
     two = tuple(2 * _atanh(Fraction(1, 3), w, up) for up in (False, True))
     return (e * two[e < 0] + 2 * _atanh(z, w, False), e * two[e >= 0] + 2 * _atanh(z, w, True))
 

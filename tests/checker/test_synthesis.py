@@ -168,11 +168,11 @@ def test_peak_and_sigma_mean_nothing_without_assumption_1(edges: list[list[Any]]
 
 
 def test_more_samples_than_can_be_printed() -> None:
-    """2 mu = 0.9575, so sigma = 0.0425; where mu = 1e-4900, no precision decides between sigma and the root."""
+    """2 mu = 0.9575, so sigma = 0.0425; where mu = 1e-6000, no precision decides between sigma and the root."""
     endless = {"settle_within": "9" * 5000, "settle_to": "1/100"}
     accepted(feasible(endless, START))
     meets = condition("gain-bound", "proved", mu={"inner": ["1/1" + "0" * 7000, "99/100"], "outer": ["0", "1"]})
-    status, reasons = answer(feasible(endless, {"gamma": "1/1" + "0" * 4900, "h": "1"}, meets=meets))
+    status, reasons = answer(feasible(endless, {"gamma": "1/1" + "0" * 6000, "h": "1"}, meets=meets))
     assert status == 3
     assert "sigma^floor(settle_within/h) <= settle_to" in reasons[0]
 

@@ -66,13 +66,13 @@ def test_a_vector_near_the_tie_at_a_rational_mu_is_decided_exactly() -> None:
 
 
 @pytest.mark.parametrize("alpha", [f"1/{2**64 - 1}", f"{2**64 - 2}/{2**64 - 1}", "1/2", "9/10"])
-@pytest.mark.parametrize("h", ["1" + "0" * 4_900, "1/1" + "0" * 4_900, "1"])
+@pytest.mark.parametrize("h", ["1" + "0" * 99_000, "1/1" + "0" * 99_000, "1"])
 def test_extreme_designs_end(alpha: str, h: str) -> None:
-    """mu is about h^alpha: its comparison with 1/Delta_max and the first sample are decided up to the bits allowed."""
+    """mu is about h^alpha: its comparison with 1/Delta_max and the first sample are decided whatever its size."""
     about = design(directed_cycle(5), 5, alpha, gamma="1/1000", h=h)
     claims = [claim("gain-bound", "proved"), claim("memory-inequality", "refuted", k=0)]
     report = checked(certificate(about, claims, threshold=("0", "1"), beta=("-1" + "0" * 99_990, "1")))
-    large = len(h) > 4_000 and "/" not in h and not alpha.startswith("1/1")
+    large = len(h) > 90_000 and "/" not in h and not alpha.startswith("1/1")
     expected = {"gain-bound": "refused", "memory-inequality": "refused"} if large else {}
     if h == "1" and alpha.startswith("18446744073709551614"):
         expected = {"memory-inequality": "refused"}  # 1 - beta is near 0.0007, 2 - 2^alpha is near 2^-63
