@@ -20,6 +20,7 @@ from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass, field
 from functools import cache
 from io import FileIO
+from itertools import chain
 from pathlib import Path
 
 from fomas_verify.exact.errors import FomasError, source_name
@@ -104,13 +105,12 @@ def write_all(*contents: Mapping[Path, bytes | Iterable[bytes]], durable: bool =
     the same file; raises `OutputError`.
     """
     staged: list[tuple[Path, Path]] = []
+    taken: set[Path] = set()
     with ExitStack() as files:
         try:
-            for path, data in [entry for files_of_one in contents for entry in files_of_one.items()]:
+            for path, data in chain.from_iterable(x.items() for x in contents):
                 with _refusals_named(path):
-                    if os.path.realpath(path) in [os.path.realpath(other) for _, other in staged]:
-                        raise FileExistsError(None, "expected a file of its own, found another output of this run")
-                    _stage(path, data, staged, files, durable=durable)
+                    _stage(path, data, staged, taken, files, durable=durable)
             if _held is not None and _held.names:
                 _held.files += staged
                 _held.locks.push(files.pop_all())
@@ -145,7 +145,13 @@ def remove_file(path: Path) -> None:
 
 
 def _stage(
-    path: Path, data: bytes | Iterable[bytes], staged: list[tuple[Path, Path]], files: ExitStack, *, durable: bool
+    path: Path,
+    data: bytes | Iterable[bytes],
+    staged: list[tuple[Path, Path]],
+    taken: set[Path],
+    files: ExitStack,
+    *,
+    durable: bool,
 ) -> None:
     if path.is_dir():
         raise IsADirectoryError(None, "is a directory")
@@ -162,6 +168,9 @@ def _stage(
             raise FileExistsError(None, "expected a file of its own, found a design")
         if was_read(target):
             raise FileExistsError(None, "expected a file of its own, found what this run reads")
+        if target in taken:
+            raise FileExistsError(None, "expected a file of its own, found another output of this run")
+        taken.add(target)
         _remove_leftovers(target)
     temporary, file = _locked_temporary(place)
     files.enter_context(file)
