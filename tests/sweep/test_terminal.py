@@ -6,7 +6,7 @@ import re
 import signal
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -17,8 +17,8 @@ SMALL = {"mu": ["0.1", "0.2", "0.4"]}
 MOVES = re.compile(r"\x1b\[([0-9;?]*)([A-Za-z])|([\r\n])|([^\x1b\r\n]+)")
 
 
-def screen(written: str) -> list[str]:
-    """The lines that a terminal shows after some output; knows the moves that rich makes."""
+def screens(written: str) -> Iterator[list[str]]:
+    """The lines that a terminal shows after each piece of some output; knows the moves that rich makes."""
     lines, row, column = [""], 0, 0
     for number, move, control, text in MOVES.findall(written):
         if text:
@@ -36,11 +36,16 @@ def screen(written: str) -> list[str]:
             lines[row] = ""
         else:
             assert move in "hlm", move
-    return [line for line in lines if line]
+        yield [line for line in lines if line]
+
+
+def screen(written: str) -> list[str]:
+    """The lines that a terminal shows after all of it."""
+    return [[], *screens(written)][-1]
 
 
 def on_terminal(
-    *arguments: object, told: Callable[[str, subprocess.Popen], None], **environment: str
+    *arguments: object, meanwhile: Callable[[subprocess.Popen], object] = lambda _: None, **environment: str
 ) -> tuple[int, str]:
     """Run a sweep whose standard error is a terminal; its status and what it wrote there."""
     ours, its = pty.openpty()
@@ -56,7 +61,7 @@ def on_terminal(
     try:
         while data := _read(ours):
             written += data
-            told(written.decode(errors="ignore"), process)
+            meanwhile(process)
     except BaseException:
         process.kill()
         raise
@@ -73,19 +78,12 @@ def _read(terminal: int) -> bytes:
 
 
 def test_the_bar_is_one_line_and_goes(write_grid, tmp_path: Path) -> None:
-    shown = []
-    status, written = on_terminal(
-        write_grid(SMALL, alpha="0.9"),
-        "-o",
-        tmp_path / "rows",
-        "-j",
-        1,
-        told=lambda text, _: shown.append(screen(text)),
-    )
+    status, written = on_terminal(write_grid(SMALL, alpha="0.9"), "-o", tmp_path / "rows", "-j", 1)
     assert status == 0
+    shown = list(screens(written))
     assert max(map(len, shown)) == 1
     assert any(lines and re.search(r"[0-3]/3 rows", lines[0]) for lines in shown)
-    assert screen(written) == []
+    assert shown[-1] == []
 
 
 @pytest.mark.slow
@@ -94,11 +92,11 @@ def test_an_interruption_has_a_line_of_its_own(long_grid: Path, tmp_path: Path) 
 
     sent = []
 
-    def interrupt(_: str, process: subprocess.Popen) -> None:
+    def interrupt(process: subprocess.Popen) -> None:
         if not sent and len(parts(folder)) > 1:
             sent.append(process.send_signal(signal.SIGINT))
 
-    status, written = on_terminal(long_grid, "-o", folder, "--part-rows", 10, "-j", 2, told=interrupt)
+    status, written = on_terminal(long_grid, "-o", folder, "--part-rows", 10, "-j", 2, meanwhile=interrupt)
     assert status == 130
     (line,) = screen(written)
     assert re.fullmatch(
@@ -107,7 +105,5 @@ def test_an_interruption_has_a_line_of_its_own(long_grid: Path, tmp_path: Path) 
 
 
 def test_a_terminal_that_cannot_move_is_left_alone(write_grid, tmp_path: Path) -> None:
-    status, written = on_terminal(
-        write_grid(SMALL, alpha="0.9"), "-o", tmp_path / "rows", "-j", 1, told=lambda *_: None, TERM="dumb"
-    )
+    status, written = on_terminal(write_grid(SMALL, alpha="0.9"), "-o", tmp_path / "rows", "-j", 1, TERM="dumb")
     assert (status, written) == (0, "")
