@@ -12,7 +12,7 @@ from math import ceil
 from typing import cast
 
 from fomas_verify.checker.designs import Design, Interval, UncertainDesign
-from fomas_verify.checker.powers import Enclosure, gamma_one_plus, outward, point, power
+from fomas_verify.checker.powers import REMEMBERED, Enclosure, gamma_one_plus, outward, point, power
 
 _WIDEST = Fraction(1, 16)
 MAX_PARTS = 2**12
@@ -96,7 +96,7 @@ class Gain:
         return low, low if gamma[0] == gamma[1] and h[0] == h[1] else mu_at(gamma[1], h[1], alpha, bits)
 
 
-@lru_cache(maxsize=64)
+@lru_cache(maxsize=REMEMBERED)
 def mu_at(gamma: Fraction, h: Fraction, alpha: Fraction, bits: int) -> Enclosure:
     """gamma h^alpha / Gamma(alpha + 1), 0 <= alpha <= 1."""
     if alpha in (0, 1):

@@ -11,6 +11,8 @@ from functools import lru_cache
 from math import isqrt
 
 _GUARD = 64
+REMEMBERED = 1024
+"""Answers kept: the parts of an interval of alpha share their ends, and all certificates of one loop share them."""
 
 
 @dataclass(frozen=True)
@@ -36,7 +38,7 @@ def point(x: Fraction) -> Enclosure:
     return Enclosure(x, x)
 
 
-@lru_cache(maxsize=64)
+@lru_cache(maxsize=REMEMBERED)
 def power(base: Fraction, exponent: Fraction, bits: int) -> Enclosure:
     """base^exponent for rational base > 0 and 0 < exponent < 1, to a relative width of about 2^-bits. Rigorous."""
     w = bits + _GUARD
@@ -45,7 +47,7 @@ def power(base: Fraction, exponent: Fraction, bits: int) -> Enclosure:
     return outward(_exp(_div(lower * p, q, False), w, False), _exp(_div(upper * p, q, True), w, True), bits)
 
 
-@lru_cache(maxsize=64)
+@lru_cache(maxsize=REMEMBERED)
 def gamma_one_plus(alpha: Fraction, bits: int) -> Enclosure:
     """Gamma(1 + alpha) for rational 0 < alpha < 1, to a relative width of about 2^-bits. Rigorous."""
     w = bits + _GUARD

@@ -106,9 +106,9 @@ def _floats(design: Design) -> tuple[Any, Any]:
     return lap, np.eye(design.agents) - 1 / design.agents
 
 
-def _sigma(design: Design, gain: Any, fine: bool) -> Span:
-    """sigma at a gain, to 50 digits where fine, otherwise with a guard against rounding."""
-    if fine:
+def _sigma(design: Design, gain: Any, exact: bool) -> Span:
+    """sigma at a gain, to the working precision where exact, otherwise in floats with a guard against rounding."""
+    if exact:
         basis = oracle._orthonormal_basis(design.agents)
         p = basis - gain * (mp.matrix([[oracle.real(x) for x in row] for row in laplacian(design)]) * basis)
         size = oracle.largest_singular_value(p)
@@ -120,8 +120,14 @@ def _sigma(design: Design, gain: Any, fine: bool) -> Span:
 
 
 def _repaired(design: Design, x: Any, y: Any, gains: Span) -> Span:
+    span = _repaired_by(design, x, y, gains, exact=False)
+    straddles = span[0] <= 0 <= span[1]
+    return _repaired_by(design, x, y, gains, exact=True) if straddles and y - x < FINE else span
+
+
+def _repaired_by(design: Design, x: Any, y: Any, gains: Span, exact: bool) -> Span:
     low, high = gains
-    sizes = [_sigma(design, gain, y - x < FINE) for gain in ({low, high})]
+    sizes = [_sigma(design, gain, exact) for gain in {low, high}]
     steepest = oracle.real(2 * degree_max(design))  # norm L <= 2 D on a balanced graph
     below = max(size[0] for size in sizes) - steepest * (high - low)
     return mp.mpf(2) ** x - 1 - max(size[1] for size in sizes), mp.mpf(2) ** y - 1 - below

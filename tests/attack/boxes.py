@@ -75,9 +75,13 @@ def start_of(design: Design, x0: tuple[tuple[Fraction, ...], ...] | None) -> Sta
     return Start(columns / np.linalg.norm(columns), "fro")
 
 
-def _norm(a: Any, order: Any) -> float:
-    """The norm of a matrix in floats; infinite where it has outgrown them."""
-    return float(np.linalg.norm(a, order)) if np.isfinite(a).all() else np.inf
+def _norms(blocks: list[Any], order: Any) -> list[float]:
+    """The norms of matrices in floats; infinite where they have outgrown them."""
+    stack = np.array(blocks)
+    finite = np.isfinite(stack).all(axis=(1, 2))
+    norms = np.full(len(stack), np.inf)
+    norms[finite] = np.linalg.norm(stack[finite], order, axis=(1, 2))
+    return norms.tolist()
 
 
 class Loop:
@@ -89,19 +93,19 @@ class Loop:
         n = np.arange(last + 2, dtype=float)
         self.c = (n + 1) ** alpha - n**alpha
         falls, r = self.c[:-1] - self.c[1:], [1.0]
-        power, moved, control = np.eye(len(lap)), start.columns, start.columns
-        self.powers, self.moved, self.controls = [1.0], [1.0], [1.0]
+        powers, moved, controls = [np.eye(len(lap))], [start.columns], [start.columns]
         for k in range(1, last + 1):
-            power = p @ power
-            self.powers.append(_norm(power, 2))
+            powers.append(p @ powers[-1])
             if start.columns is None:
                 continue
-            moved = p @ moved
-            self.moved.append(_norm(moved, start.order))
+            moved.append(p @ moved[-1])
             if k <= samples:
                 r.append(float(np.dot(falls[:k], r[::-1])))
-                control = p @ control + r[k] * start.columns
-                self.controls.append(_norm(control, start.order))
+                controls.append(p @ controls[-1] + r[k] * start.columns)
+        self.powers = _norms(powers, 2)
+        self.moved, self.controls = (
+            [1.0] if start.columns is None else _norms(blocks, start.order) for blocks in (moved, controls)
+        )
 
 
 def _margins(design: Design, witness: Witness, start: Start, alpha: float, gain: float, least: float) -> Any:

@@ -108,6 +108,7 @@ def laplacian(design: Design) -> Matrix:
     return [[sum(row) - x if i == j else -x for j, x in enumerate(row)] for i, row in enumerate(a)]
 
 
+@lru_cache(maxsize=512)
 def degree_max(design: Design) -> Fraction:
     """D, the largest row sum of A."""
     return max(sum(row, Fraction(0)) for row in adjacency(design))

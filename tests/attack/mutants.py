@@ -6,6 +6,7 @@ Everything follows from the seed and the bytes of the certificates.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from itertools import islice
 from random import Random
 from typing import Any
 
@@ -162,11 +163,11 @@ def mutants(certificates: dict[str, bytes], seed: int, count: int, start: int = 
         yield mutant(names, trees, seed, index)
 
 
-def sweep(name: str, certificate: bytes) -> Iterator[Mutant]:
-    """Every edit that fits, on every field of one certificate."""
+def sweep(name: str, certificate: bytes, step: int = 1) -> Iterator[Mutant]:
+    """Every edit that fits, or each `step`-th, on every field of one certificate."""
     tree = loads(certificate)
-    for at, item in list(paths(tree)):
-        for label, edit in edits(item).items():
-            random = Random(f"{name}/{named(tree, at)}/{label}")
-            changed = replaced(tree, at, edit(found(tree, at), random))
-            yield Mutant(f"{name}: {named(tree, at)}: {label}", dumps(changed).encode("utf-8", errors="surrogatepass"))
+    fitting = ((at, label, edit) for at, item in paths(tree) for label, edit in edits(item).items())
+    for at, label, edit in islice(fitting, None, None, step):
+        random = Random(f"{name}/{named(tree, at)}/{label}")
+        changed = replaced(tree, at, edit(found(tree, at), random))
+        yield Mutant(f"{name}: {named(tree, at)}: {label}", dumps(changed).encode("utf-8", errors="surrogatepass"))

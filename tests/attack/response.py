@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from fractions import Fraction
 from functools import lru_cache
+from operator import mul
 from typing import Any
 
 import numpy as np
@@ -22,6 +23,7 @@ Block = list[list[Any]]
 Truth = bool | None
 NEAR = 1e-11
 GUARD = 30
+SPARE = 64
 
 
 class Kernel:
@@ -30,8 +32,9 @@ class Kernel:
     def __init__(self, alpha: Fraction, dps: int) -> None:
         self.alpha, self.dps = alpha, dps
         self._c: list[Any] = [mp.mpf(1)]
-        self._falls: list[Any] = []
-        self._r: list[Any] = [mp.mpf(1)]
+        self._bits = int(3.33 * (dps + GUARD)) + SPARE
+        self._falls: list[int] = []
+        self._r: list[int] = [1 << self._bits]
 
     def c(self, n: int) -> Any:
         """The step response of the memory."""
@@ -40,16 +43,16 @@ class Kernel:
             while len(self._c) <= n:
                 k = len(self._c)
                 self._c.append(mp.mpf(k + 1) ** alpha - mp.mpf(k) ** alpha)
-                self._falls.append(self._c[k - 1] - self._c[k])
+                self._falls.append(int(mp.nint(mp.ldexp(self._c[k - 1] - self._c[k], self._bits))))
         return self._c[n]
 
     def r(self, n: int) -> Any:
-        """r_n = -sum_{j=1}^{n} f(j) r_{n-j}, with f(j) = c_j - c_{j-1}."""
+        """r_n = -sum_{j=1}^{n} f(j) r_{n-j}, with f(j) = c_j - c_{j-1}, by integers: all are in [0, 1]."""
         self.c(n)
+        while len(self._r) <= n:
+            self._r.append(sum(map(mul, self._falls, reversed(self._r))) >> self._bits)
         with mp.workdps(self.dps + GUARD):
-            while len(self._r) <= n:
-                self._r.append(mp.fdot(self._falls[: len(self._r)], self._r[::-1]))
-        return self._r[n]
+            return mp.ldexp(self._r[n], -self._bits)
 
 
 @lru_cache(maxsize=256)
@@ -68,8 +71,9 @@ def approx_norm(columns: Block, spectral: bool) -> Any:
     size = max(abs(x) for column in columns for x in column)
     if not size:
         return mp.mpf(0)
-    floats = np.array([[float(x / size) for x in column] for column in columns])
-    return size * mp.mpf(float(np.linalg.norm(floats, 2) if spectral else np.linalg.norm(floats)))
+    exponent = mp.frexp(size)[1]
+    floats = np.array([[float(mp.ldexp(x, -exponent)) for x in column] for column in columns])
+    return mp.ldexp(float(np.linalg.norm(floats, 2) if spectral else np.linalg.norm(floats)), exponent)
 
 
 def exact_norm(columns: Block, spectral: bool) -> Any:
@@ -90,47 +94,48 @@ class Response:
         self._power_norms, self._control_norms = [one], [one]
         self.limit = min(2048, max(64, 700_000 // (len(p) ** 2 * len(start))))
 
-    def reach(self, k: int) -> None:
-        """Extend both sequences to k.
+    def _afford(self, k: int) -> None:
+        if k > self.limit:
+            raise ArithmeticError(f"{k} samples are beyond the oracle's limit")
+
+    def power_norm(self, k: int) -> Any:
+        """norm(P^k S), to about 14 digits.
 
         Raises
         ------
         ArithmeticError
-            When that is more than this oracle affords.
+            Where k samples are more than this oracle affords, as in `control_norm`.
         """
-        if k > self.limit:
-            raise ArithmeticError(f"{k} samples are beyond the oracle's limit")
+        self._afford(k)
         while len(self._powers) <= k:
-            r = self.kernel.r(len(self._powers))
             with mp.workdps(self.dps + GUARD):
                 self._powers.append(multiply(self.p, self._powers[-1]))
+                self._power_norms.append(approx_norm(self._powers[-1], self.spectral))
+        return self._power_norms[k]
+
+    def control_norm(self, k: int) -> Any:
+        """norm(Phi_k S), to about 14 digits."""
+        self._afford(k)
+        while len(self._controls) <= k:
+            r = self.kernel.r(len(self._controls))
+            with mp.workdps(self.dps + GUARD):
                 moved = multiply(self.p, self._controls[-1])
                 kept = [
                     [x + r * s for x, s in zip(column, first, strict=True)]
                     for column, first in zip(moved, self.start, strict=True)
                 ]
                 self._controls.append(kept)
-                self._power_norms.append(approx_norm(self._powers[-1], self.spectral))
                 self._control_norms.append(approx_norm(kept, self.spectral))
-
-    def power_norm(self, k: int) -> Any:
-        """norm(P^k S), to about 14 digits."""
-        self.reach(k)
-        return self._power_norms[k]
-
-    def control_norm(self, k: int) -> Any:
-        """norm(Phi_k S), to about 14 digits."""
-        self.reach(k)
         return self._control_norms[k]
 
     def control_matrix(self, k: int) -> Any:
         """Phi_k S, as a matrix."""
-        self.reach(k)
+        self.control_norm(k)
         return mp.matrix(self._controls[k]).T
 
     def exact_control_norm(self, k: int) -> Any:
         """norm(Phi_k S) at full precision."""
-        self.reach(k)
+        self.control_norm(k)
         with mp.workdps(self.dps + 10):
             return exact_norm(self._controls[k], self.spectral)
 

@@ -12,6 +12,7 @@ from typing import Any
 
 NUMBER = re.compile(r"-?(?:0|[1-9][0-9]*)(?:\.[0-9]+)?(?:[eE][+-]?[0-9]+)?")
 PLAIN = re.compile(r'[^"\\\x00-\x1f]*')
+NOT_PLAIN = re.compile(r'["\\\x00-\x1f\ud800-\udfff]')
 SPACE = re.compile(r"[ \t\n\r]*")
 ESCAPES = {'"': '"', "\\": "\\", "/": "/", "b": "\b", "f": "\f", "n": "\n", "r": "\r", "t": "\t"}
 DEEPEST = 16
@@ -160,16 +161,13 @@ def loads(data: bytes) -> Any:
     return value
 
 
+def _escaped(match: re.Match[str]) -> str:
+    char = match[0]
+    return "\\" + char if char in '"\\' else f"\\u{ord(char):04x}"
+
+
 def _quote(text: str) -> str:
-    out = []
-    for char in text:
-        if char in '"\\':
-            out.append("\\" + char)
-        elif ord(char) < 32 or 0xD800 <= ord(char) < 0xE000:
-            out.append(f"\\u{ord(char):04x}")
-        else:
-            out.append(char)
-    return '"' + "".join(out) + '"'
+    return '"' + NOT_PLAIN.sub(_escaped, text) + '"'
 
 
 def dumps(value: Any, gap: str = "") -> str:
