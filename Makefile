@@ -28,11 +28,11 @@ demo: $(BASE)  ## the paper's design: decided, certified, checked, reported (rep
 	@verify-design report examples/paper.toml -o $(PAPER)
 
 test: debian lint docs  ## everything: lint, types, contracts, documentation, all tests, proofs
-	pytest -n 2
+	pytest -n 2 --dist worksteal
 	@$(MAKE) proofs
 
 check: lint  ## the quick part of it, below three minutes
-	pytest -n 2 -m "not slow"
+	pytest -n 2 --dist worksteal -m "not slow"
 
 lint: $(DEV)  ## format, lint, strict types, import contracts
 	ruff format --check .
