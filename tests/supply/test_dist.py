@@ -27,6 +27,7 @@ ROOT = Path(__file__).resolve().parents[2]
 NOT_SOURCES = shutil.ignore_patterns(
     ".git", ".venv", "__pycache__", ".*_cache", ".hypothesis", ".coverage*", "build", "dist", "site", "reports"
 )
+COMPILED = ("Facts/Sums.vo", "Facts/.Sums.aux", ".lia.cache", "Makefile.coq", "Assumptions1.v")
 Run = subprocess.CompletedProcess[str]
 
 
@@ -62,11 +63,13 @@ def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def test_the_same_bytes_from_another_folder(built: Path, tmp_path: Path) -> None:
-    """Another path, file times, order of writing, permissions, umask, time zone, locale and hash seed."""
+    """Another path, file times, order of writing, permissions, umask, time zone, locale, hash seed; proofs compiled."""
     source = tmp_path / "a folder of another length"
     before = os.umask(0o077)
     try:
         shutil.copytree(ROOT, source, ignore=NOT_SOURCES)
+        for name in COMPILED:
+            (source / "proofs" / name).write_text("not a source")
         for number, path in enumerate(sorted(filter(Path.is_file, source.rglob("*")), reverse=True)):
             os.utime(path, (1e9 + number, 1e9 + number))
             path.chmod(path.stat().st_mode & 0o700)
