@@ -19,6 +19,7 @@ from fomas_verify.checker.polynomials import (
     derivative,
     divided,
     roots_between,
+    scaled_value,
     sign_at,
 )
 
@@ -63,7 +64,7 @@ class Root:
 
     def sign(self, coefficients: Poly) -> int:
         """The sign of a polynomial at y."""
-        steps = 8
+        bits = 8
         settled = False
         while True:
             coefficients = self.reduced(list(coefficients))
@@ -74,8 +75,8 @@ class Root:
                 self._split(common_divisor(self.modulus, coefficients))
                 settled = True
             else:
-                self._narrow(steps)
-                steps *= 2
+                self._narrow(bits)
+                bits *= 2
 
     def inverse(self, coefficients: Poly) -> tuple[Poly, int]:
         """(p, d) with p(y) / d the inverse of a polynomial that is not zero at y."""
@@ -95,18 +96,30 @@ class Root:
         else:
             self.modulus = divided(self.modulus, factor)[0]
 
-    def _narrow(self, steps: int) -> None:
-        for _ in range(steps):
-            middle = (self.lower + self.upper) / 2
-            side = sign_at(self.modulus, middle)
-            if side == 0:
-                # y = middle: as an algebraic integer that is rational, it is an integer.
-                self.modulus = (-middle.numerator, 1)
-                return
-            if side == sign_at(self.modulus, self.lower):
-                self.lower = middle
-            else:
-                self.upper = middle
+    def _narrow(self, bits: int) -> None:
+        """Make the interval 2^bits times narrower, or more.
+
+        It is cut into 2^depth parts, and the one where the chord has its root is tried: into twice the bits where that
+        was right, half of them where it was not. Only signs move an end, however good the chord is.
+        """
+        goal, depth = (self.upper - self.lower) / 2**bits, 2
+        while self.upper - self.lower > goal:
+            left = scaled_value(self.modulus, self.lower) * self.upper.denominator**self.degree
+            right = scaled_value(self.modulus, self.upper) * self.lower.denominator**self.degree
+            first = min((left << depth) // (left - right), 2**depth - 1)
+            part = (self.upper - self.lower) / 2**depth
+            ends = self.lower + first * part, self.lower + (first + 1) * part
+            for end in ends:
+                side = sign_at(self.modulus, end)
+                if side == 0:
+                    # y = end: as an algebraic integer that is rational, it is an integer.
+                    self.modulus = (-end.numerator, 1)
+                    return
+                if (side > 0) == (left > 0):
+                    self.lower = max(self.lower, end)
+                else:
+                    self.upper = min(self.upper, end)
+            depth = 2 * depth if (self.lower, self.upper) == ends else max(depth // 2, 1)
 
     def _range(self, coefficients: Poly) -> tuple[Fraction, Fraction]:
         """Bounds of a polynomial at y (Horner's scheme in intervals)."""

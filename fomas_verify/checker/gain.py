@@ -51,7 +51,7 @@ class Gain:
             return Enclosure(min(half.lower for half in halves), max(half.upper for half in halves))
         ends = [self._ends(alpha, bits) for alpha in (first, last)]
         beyond = [
-            high.upper * max(Fraction(1), high.upper / self._ends(other, bits)[1].lower)
+            high.upper * max(Fraction(1), high.upper / _short(self._ends(other, bits)[1], bits).lower)
             for (_, high), other in zip(ends, (first - width, last + width), strict=True)
             if 0 <= other <= 1
         ]
@@ -94,6 +94,10 @@ class Gain:
         gamma, h = cast(Interval, self.gamma), cast(Interval, self.h)
         low = mu_at(gamma[0], h[0], alpha, bits)
         return low, low if gamma[0] == gamma[1] and h[0] == h[1] else mu_at(gamma[1], h[1], alpha, bits)
+
+
+def _short(x: Enclosure, bits: int) -> Enclosure:
+    return outward(x.lower, x.upper, bits)
 
 
 @lru_cache(maxsize=REMEMBERED)

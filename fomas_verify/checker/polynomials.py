@@ -56,13 +56,19 @@ def derivative(a: Poly) -> Poly:
     return primitive(i * entry for i, entry in enumerate(a) if i > 0)
 
 
-def sign_at(a: Poly, x: Fraction) -> int:
-    """The sign of a(x)."""
+def scaled_value(a: Poly, x: Fraction) -> int:
+    """a(x) times the denominator of x to the power of the degree of a."""
     total, scale = 0, 1
     for entry in reversed(a):
         total = total * x.numerator + entry * scale
         scale *= x.denominator
-    return (total > 0) - (total < 0)
+    return total
+
+
+def sign_at(a: Poly, x: Fraction) -> int:
+    """The sign of a(x)."""
+    value = scaled_value(a, x)
+    return (value > 0) - (value < 0)
 
 
 def roots_between(a: Poly, lower: Fraction, upper: Fraction) -> int:

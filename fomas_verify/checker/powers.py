@@ -135,7 +135,7 @@ def _exp(x: int, w: int, up: bool) -> Fraction:
         term = _div(term * r, k << w, up)
         k += 1
     # r <= 1: the terms from here on are at most term (1 + 1/k + 1/k^2 + ...) <= 2 term, as k >= 2.
-    return Fraction(total + 2 * term if up else total) * Fraction(2) ** (n - w)
+    return Fraction((total + 2 * term if up else total) << max(n - w, 0), 1 << max(w - n, 0))
 
 
 def _gamma_ends(alpha: Fraction, t: int, w: int) -> tuple[Fraction, Fraction]:

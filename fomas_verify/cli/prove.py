@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 @design_argument
 @click.option("-o", "--output", type=click.Path(path_type=Path), metavar="CERT.json", help="write the certificate")
 @click.option(
-    "--horizon", type=Count(0, 10**9), metavar="K", help="also check (14) term by term, k = 0..K (such as 10^7)"
+    "--horizon", type=Count(0, 10**7), metavar="K", help="also check (14) term by term, k = 0..K (such as 10^7)"
 )
 @click.option("--coq", type=click.Path(path_type=Path), metavar="DIR", help="write the proof as a Coq file into DIR")
 @digits_option

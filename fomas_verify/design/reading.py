@@ -31,7 +31,7 @@ from fomas_verify.network import Digraph
 from fomas_verify.network.large import LargeGraph
 
 FORMAT: Final = "fomas-design/1"
-MAX_HORIZON: Final = 10**9
+MAX_HORIZON: Final = 10**7
 MAX_NAME: Final = 200
 MAX_GRAPHS: Final = 64
 ALPHA_LIMIT: Final = 2**64

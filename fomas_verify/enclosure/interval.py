@@ -79,8 +79,12 @@ class Interval:
 
     def __mul__(self, other: Interval | Fraction | int) -> Interval:
         """``x y``."""
-        right = other if isinstance(other, Interval) else Interval.exactly(other)
-        ends = [a * b for a in (self.lower, self.upper) for b in (right.lower, right.upper)]
+        if not isinstance(other, Interval):
+            first, last = self.ends if other >= 0 else self.ends[::-1]
+            return Interval(first * other, last * other)
+        if self.lower >= 0 and other.lower >= 0:
+            return Interval(self.lower * other.lower, self.upper * other.upper)
+        ends = [a * b for a in self.ends for b in other.ends]
         return Interval(min(ends), max(ends))
 
     def __truediv__(self, other: Interval | Fraction | int) -> Interval:

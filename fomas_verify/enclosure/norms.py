@@ -90,15 +90,17 @@ def _magnitude(a: BallMatrix) -> int:
     return int(exponent) + fmpz(mantissa).bit_length()
 
 
-def squared_image(a: BallMatrix, vector: Sequence[Fraction]) -> Interval:
-    """The square of the norm of A v; rigorous."""
-    image = a * arb_mat(len(vector), 1, [arb(to_fmpq(x)) for x in vector])
-    return to_interval(sum((image[i, 0] * image[i, 0] for i in range(image.nrows())), arb(0)))
+def columns(vectors: Sequence[Sequence[Fraction]]) -> BallMatrix:
+    """The matrix with these columns."""
+    entries = [[arb(to_fmpq(x)) for x in vector] for vector in vectors]
+    return arb_mat([list(row) for row in zip(*entries, strict=True)])
 
 
-def squared_images(a: BallMatrix, vectors: Sequence[Sequence[Fraction]]) -> Interval:
-    """The sum of the squares of the norms of A v over the vectors v; rigorous."""
-    return sum((squared_image(a, vector) for vector in vectors), Interval.exactly(0))
+def squared_image(a: BallMatrix, vectors: BallMatrix) -> Interval:
+    """The sum of the squares of all entries of A V, V given by `columns`; rigorous."""
+    image = a * vectors
+    squares = [[x * x for x in column] for column in zip(*image.tolist(), strict=True)]
+    return sum((to_interval(sum(column, arb(0))) for column in squares), Interval.exactly(0))
 
 
 def approx_preimage_of_top(a: BallMatrix, laplacian: Matrix) -> list[Fraction] | None:

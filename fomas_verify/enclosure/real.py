@@ -65,9 +65,9 @@ def square_root(x: Interval, bits: int) -> Interval:
     """
     lower, upper = max(x.lower, Fraction(0)), max(x.upper, Fraction(0))
     if x.is_exact:
-        root = Fraction(isqrt(lower.numerator), isqrt(lower.denominator))
-        if root * root == lower:
-            return Interval.exactly(root)
+        root = isqrt(lower.numerator), isqrt(lower.denominator)
+        if root[0] ** 2 == lower.numerator and root[1] ** 2 == lower.denominator:
+            return Interval.exactly(Fraction(*root))
     with working_precision(bits):
         low, high = (to_interval(arb(to_fmpq(end)).sqrt()) for end in (lower, upper))
     return Interval(max(low.lower, Fraction(0)), high.upper)

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from fomas_verify.enclosure.interval import Interval, round_up, short_dyadic
-from fomas_verify.enclosure.norms import BallMatrix, approx_preimage_of_top, squared_image, squared_images
+from fomas_verify.enclosure.norms import BallMatrix, approx_preimage_of_top, columns, squared_image
 from fomas_verify.enclosure.real import square_root, working_precision
 from fomas_verify.exact import matrix as exact
 from fomas_verify.spectrum.loop import Loop
@@ -34,6 +34,9 @@ EVERY_POWER = 64
 LEAST_GAP, LEAST_BOUND = Fraction(1, 1 << 16), Fraction(1, 1 << 8192)
 """No rate is sought where 1 minus the spectral radius is below the first, nor beyond powers of rho below the second."""
 
+EXACT_SIZE_BITS = 4096
+"""``norm e_0`` is kept exactly up to so many bits, so that ties are seen; beyond, it is enclosed."""
+
 DOUBLINGS = 64
 """The settling sample is sought below 2^64."""
 
@@ -47,7 +50,7 @@ def state_above(loop: Loop, k: int, bits: int) -> list[Fraction] | None:
         while approximation is not None and scale <= bits:
             x0 = [Fraction(round(x * (1 << scale))) for x in approximation]
             e0 = exact.apply(loop.laplacian, x0)
-            if squared_image(phi, e0).lower > exact.norm_squared(e0):
+            if squared_image(phi, columns([e0])).lower > exact.norm_squared(e0):
                 return x0
             scale += 1 + scale // 2
     return None
@@ -73,21 +76,22 @@ def follow(loop: Loop, components: Sequence[Sequence[Fraction]], bits: int, limi
     0``. Rigorous.
     """
     e0 = [exact.apply(loop.laplacian, x) for x in components]
-    size = sum((exact.norm_squared(e) for e in e0), Fraction(0))
+    size = Interval.exactly(sum((exact.norm_squared(e) for e in e0), Fraction(0))).shortened(EXACT_SIZE_BITS)
     with working_precision(bits):
+        start = columns(e0)
         run = Samples(loop, bits)
         test, powers = TailTest(run.alpha, bits), {0: Fraction(1)}
         largest, at = Interval.exactly(0), 0
         for sample in run.all(limit):
             k = sample.k
-            ratio = square_root(squared_images(sample.phi, e0) / size, bits)
+            ratio = square_root(squared_image(sample.phi, start) / size, bits)
             if ratio.lower > largest.lower:
                 largest, at = ratio, k
             if ratio.lower > 1:
                 return Trajectory(k, None, largest, at, k)
             if k <= EVERY_POWER or k & (k - 1) == 0:
                 powers[k] = run.norm(sample.power, COARSE).upper
-            shrunk = square_root(squared_images(sample.power, e0) / size, bits).upper
+            shrunk = square_root(squared_image(sample.power, start) / size, bits).upper
             passed = test.add(shrunk if ratio.upper <= 1 else None, Fraction(1))
             if passed and (tail := test.tail(submultiplied(powers, test.streak))) is not None:
                 return Trajectory(None, tail, largest, at, k)

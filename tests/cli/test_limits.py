@@ -16,8 +16,8 @@ from fomas_verify.cli.limits import Limits, _bytes
 
 Verify = Callable[..., CompletedProcess[str]]
 PAPER = "examples/paper.toml"
-ENDLESS = ("prove", PAPER, "--horizon", 10**9)
-SLOW = 'name = "{}"\nalpha = 0.9\nmu = 0.1\nhorizon = 1000000000\n[graph]\nfamily = "cycle"\nagents = 4\n'
+ENDLESS = ("prove", PAPER, "--horizon", 10**7)
+SLOW = 'name = "{}"\nalpha = 0.9\nmu = 0.1\nhorizon = 10000000\n[graph]\nfamily = "cycle"\nagents = 4\n'
 QUICK = 'name = "{}"\nalpha = 0.9\nmu = 0.2\n[graph]\nfamily = "complete"\nagents = 4\n'
 TIME = "verify-design: kept within --time-limit {}: this run needs longer; it is ended, and nothing is written\n"
 MEMORY = "verify-design: kept within --memory {}: this run needs more; it is ended, and nothing is written\n"
