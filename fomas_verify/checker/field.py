@@ -99,27 +99,31 @@ class Root:
     def _narrow(self, bits: int) -> None:
         """Make the interval 2^bits times narrower, or more.
 
-        It is cut into 2^depth parts, and the one where the chord has its root is tried: into twice the bits where that
-        was right, half of them where it was not. Only signs move an end, however good the chord is.
+        The three multiples of a power of two around the root of the chord are tried, with a step of at most 2^-depth
+        of the interval: twice the depth where one step holds y afterwards, half of it otherwise. Only signs move an
+        end, however good the chord is; a step is at most half of the interval, so that one of the three lies inside.
         """
         goal, depth = (self.upper - self.lower) / 2**bits, 2
-        while self.upper - self.lower > goal:
+        while (width := self.upper - self.lower) > goal:
             left = scaled_value(self.modulus, self.lower) * self.upper.denominator**self.degree
             right = scaled_value(self.modulus, self.upper) * self.lower.denominator**self.degree
-            first = min((left << depth) // (left - right), 2**depth - 1)
-            part = (self.upper - self.lower) / 2**depth
-            ends = self.lower + first * part, self.lower + (first + 1) * part
-            for end in ends:
-                side = sign_at(self.modulus, end)
+            shift = depth + 1 + width.denominator.bit_length() - width.numerator.bit_length()
+            up, down = 1 << max(shift, 0), 1 << max(-shift, 0)
+            first = self.lower.numerator * up // (self.lower.denominator * down)
+            first += width.numerator * up * left // (width.denominator * down * (left - right))
+            for x in (Fraction((first + i) * down, up) for i in range(3)):
+                if not self.lower < x <= self.upper:
+                    continue
+                side = sign_at(self.modulus, x)
                 if side == 0:
-                    # y = end: as an algebraic integer that is rational, it is an integer.
-                    self.modulus = (-end.numerator, 1)
+                    # y = x: as an algebraic integer that is rational, it is an integer.
+                    self.modulus = (-x.numerator, 1)
                     return
                 if (side > 0) == (left > 0):
-                    self.lower = max(self.lower, end)
+                    self.lower = x
                 else:
-                    self.upper = min(self.upper, end)
-            depth = 2 * depth if (self.lower, self.upper) == ends else max(depth // 2, 1)
+                    self.upper = x
+            depth = 2 * depth if self.upper - self.lower <= Fraction(down, up) else max(depth // 2, 1)
 
     def _range(self, coefficients: Poly) -> tuple[Fraction, Fraction]:
         """Bounds of a polynomial at y (Horner's scheme in intervals)."""

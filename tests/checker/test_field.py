@@ -7,9 +7,10 @@ from itertools import pairwise
 import pytest
 import sympy
 
+from fomas_verify.checker import field
 from fomas_verify.checker.definite import exact_sign
 from fomas_verify.checker.field import Element, Root, isolate
-from fomas_verify.checker.polynomials import common_divisor, divided, roots_between
+from fomas_verify.checker.polynomials import common_divisor, divided, roots_between, sign_at
 
 X = sympy.Symbol("x")
 
@@ -139,6 +140,30 @@ def test_narrowing_meets_a_rational_root() -> None:
     assert root is not None
     assert number(root, -(10**40) - 1, 10**40).sign() == -1
     assert root.modulus == (-1, 1)
+
+
+@pytest.mark.parametrize(
+    ("polynomial", "lower", "upper"),
+    [
+        (X**2 - 2, 0, 3),
+        (-(X**2) + 2, -2, 0),
+        (X**12 - 2, 0, 10**6),
+        (3 * X**3 - X - Fraction(1, 10**400), 0, 1),
+        (X**3 - 10**900 * X + 1, 0, 1),
+        ((X**2 - 2) * (X**2 - 3), Fraction(3, 2), 2),
+    ],
+)
+def test_narrowing_keeps_the_root_with_few_signs(monkeypatch, polynomial, lower, upper) -> None:
+    """Halving would ask for the sign at 4000 points."""
+    root = isolate(coefficients(sympy.expand(polynomial)), Fraction(lower), Fraction(upper))
+    assert root is not None
+    asked = []
+    monkeypatch.setattr(field, "sign_at", lambda *case: asked.append(case) or sign_at(*case))
+    width = root.upper - root.lower
+    root._narrow(4000)
+    assert 0 < root.upper - root.lower <= width / 2**4000
+    assert roots_between(root.modulus, root.lower, root.upper) == 1
+    assert len(asked) < 300
 
 
 def test_division_by_a_divisor_of_zero_that_is_not_zero_at_the_root() -> None:
