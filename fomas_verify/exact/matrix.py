@@ -11,8 +11,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
+from math import gcd
 
-from flint import fmpq, fmpq_mat, fmpz_poly
+from flint import fmpq, fmpq_mat, fmpz_mat, fmpz_poly
 
 from fomas_verify.exact.polynomial import integer_characteristic_polynomial
 
@@ -111,6 +112,26 @@ def evaluate(polynomial: fmpz_poly, a: Matrix) -> Matrix:
     for c in reversed(polynomial.coeffs()):
         value = value * a + one * fmpq(c)
     return value
+
+
+def length(a: Matrix) -> int:
+    """The bits of the longest entry of A, common factors and denominators left out."""
+    entries = [abs(int(x)) for x in a.numer_denom()[0].entries()]
+    return (max(entries) // (gcd(*entries) or 1)).bit_length()
+
+
+def shortened(a: Matrix, bits: int) -> tuple[Matrix, Fraction, int]:
+    """B with whole entries, s > 0 and e with ``norm(A - s B) <= s e``, for a symmetric A of which every row sums to 0,
+    as every row of B does. B holds so many of the leading bits of A's longest entry.
+    """
+    numerators, denominator = a.numer_denom()
+    n = a.nrows()
+    shift = max(0, max(abs(int(x)).bit_length() for x in numerators.entries()) - bits)
+    rows = [[int(numerators[i, j]) >> shift if i != j else 0 for j in range(n)] for i in range(n)]
+    for i, row in enumerate(rows):
+        row[i] = -sum(row)
+    # Each entry beside the diagonal is off by less than 1, each on it by less than n - 1.
+    return fmpq_mat(fmpz_mat(rows)), Fraction(1 << shift, int(denominator)), 2 * (n - 1)
 
 
 def norm_squared(vector: Sequence[Fraction]) -> Fraction:

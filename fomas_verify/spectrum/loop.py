@@ -25,6 +25,9 @@ from fomas_verify.spectrum.remembered import Remembered, of_graph, of_loop, of_o
 MOST_SAMPLES = 20_000
 """The last sample examined of any design."""
 
+LONGEST_ENTRY = 2048
+"""Bits of the entries from which the least eigenvalue is sought first."""
+
 
 @dataclass(frozen=True, eq=False)
 class Loop:
@@ -86,8 +89,8 @@ class Loop:
         null = exact.kernel(self.laplacian.transpose())
         if null.ncols() != 1:
             return None
-        w = [row[0] for row in exact.to_rows(null)]
-        return [x / sum(w) for x in w]
+        w = [int(x) for x in null.numer_denom()[0].entries()]
+        return [Fraction(x, sum(w)) for x in w]
 
     @of_loop
     def mu(self, bits: int) -> Interval:
@@ -186,9 +189,19 @@ def decrease(laplacian: Matrix, mu: Fraction) -> Matrix:
 
 
 def least_decrease(laplacian: Matrix, mu: Fraction, bits: int) -> Interval:
-    """The smallest eigenvalue nu of S on 1perp, for a balanced graph: ``sigma^2 = 1 - mu nu``. Rigorous."""
-    polynomial, scale = integer_characteristic_polynomial(decrease(laplacian, mu))
-    return least_root(without_zero_root(polynomial), bits) / scale
+    """The smallest eigenvalue nu of S on 1perp, for a balanced graph: ``sigma^2 = 1 - mu nu``. Rigorous.
+
+    It comes from the leading bits of long entries, where these are enough.
+    """
+    s = decrease(laplacian, mu)
+    if exact.length(s) > LONGEST_ENTRY:
+        short, scale, far = exact.shortened(s, LONGEST_ENTRY)
+        root = least_root(without_zero_root(integer_characteristic_polynomial(short)[0]), bits)
+        nu = Interval(root.lower - far, root.upper + far) * scale
+        if nu.width * 2**bits <= max(nu.lower, -nu.upper):
+            return nu
+    polynomial, denominator = integer_characteristic_polynomial(s)
+    return least_root(without_zero_root(polynomial), bits) / denominator
 
 
 def sigma_at(laplacian: Matrix, mu: Fraction, bits: int) -> Interval:

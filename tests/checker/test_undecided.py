@@ -2,6 +2,7 @@
 
 import json
 from fractions import Fraction
+from pathlib import Path
 
 import pytest
 
@@ -22,6 +23,7 @@ from tests.checker.builder import (
 )
 from tests.checker.cases import CASES
 
+CORPUS = Path(__file__).parents[1] / "corpus" / "accepted" / "certificates"
 LATE = "not decided within the work allowed: "
 
 
@@ -198,3 +200,16 @@ def test_a_threshold_of_unknown_sign_decides_nothing() -> None:
     found = check(json.dumps(certificate(design(path(2), 2, mu="1/10"))).encode()).design
     wide = facts.Facts(found, Graph(found)).compare_sigma(lambda _: Enclosure(Fraction(-3), Fraction(3)))
     assert wide is None
+
+
+@pytest.mark.parametrize("number", ["gamma", "h"])
+@pytest.mark.parametrize("form", ["{}", "1/{}"])
+@pytest.mark.parametrize("zeros", [4932, 4933])
+def test_sizes_and_margins_far_from_1_are_left_undecided(number: str, form: str, zeros: int) -> None:
+    """10^4932 is below 2^16384, ten times as much is not."""
+    document = json.loads((CORPUS / "margins.json").read_bytes())
+    document["design"][number] = form.format("1" + "0" * zeros)
+    found = {x.id: x.reason for x in checked(document).outcomes if "margins" in x.id or x.id == "rate"}
+    beyond = {name for name, reason in found.items() if reason.startswith("sizes and margins at such a gamma, mu or h")}
+    assert len(found) > 8
+    assert beyond == (found.keys() if zeros > 4932 else set())

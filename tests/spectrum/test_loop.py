@@ -9,7 +9,7 @@ from mpmath import mp
 
 from fomas_verify.design import design_from_mapping
 from fomas_verify.enclosure.interval import Interval
-from fomas_verify.spectrum.loop import Loop
+from fomas_verify.spectrum.loop import Loop, least_decrease
 
 PAPER = [[0, 0, 0, 1, 1], [1, 0, 1, 0, 0], [1, 1, 0, 0, 0], [0, 1, 1, 0, 0], [0, 0, 0, 1, 0]]
 
@@ -22,13 +22,13 @@ def family(name: str, agents: int, **numbers: str) -> Loop:
     return loop({"family": name, "agents": agents}, **numbers)
 
 
-def balanced(seed: random.Random) -> dict[str, object]:
+def balanced(seed: random.Random, largest: int = 5) -> dict[str, object]:
     """Directed cycles laid over each other, with integer weights."""
     n = seed.randint(2, 7)
     rows = [[0] * n for _ in range(n)]
     for k in range(seed.randint(1, 4)):
         agents = seed.sample(range(n), n if k == 0 else seed.randint(2, n))
-        weight = seed.randint(1, 5)
+        weight = seed.randint(1, largest)
         for i, j in zip(agents, agents[1:] + agents[:1], strict=True):
             rows[j][i] += weight
     return {"adjacency": rows}
@@ -133,3 +133,25 @@ def test_zero_eigenvalues_of_graphs_without_a_root(edges: list[list[int]], zero:
     assert sum(counts) == zero
     assert (found.mu_star(128) is None) == (zero > 0)
     assert not found.assumption1
+
+
+@pytest.mark.parametrize("number", range(12))
+def test_the_leading_bits_of_long_weights_say_the_same(number: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    seed = random.Random(number)
+    found = loop(balanced(seed, 2 ** seed.randint(2000, 4000)))
+    graph = found.laplacian
+    mu = Fraction(seed.randint(1, 20), 10 * int(found.degree_max))
+    short = least_decrease(graph, mu, 200)
+    monkeypatch.setattr("fomas_verify.spectrum.loop.LONGEST_ENTRY", 10**6)
+    exactly = least_decrease(graph, mu, 200)
+    assert short.overlaps(exactly)
+    assert short.width <= max(abs(short.lower), exactly.width) / 2**200
+
+
+def test_what_the_leading_bits_do_not_show_comes_from_all() -> None:
+    """A path of weights 1 and w = 2^4000: the least eigenvalue of L is 3/2 - O(1/w), below every leading bit of w."""
+    w = 2**4000
+    found = loop({"adjacency": [[0, 1, 0], [1, 0, str(w)], [0, str(w), 0]]})
+    nu = least_decrease(found.laplacian, Fraction(1, w**2), 100)
+    assert abs(nu.mid - 3) < Fraction(1, 10**30)
+    assert nu.width < Fraction(1, 10**30)
