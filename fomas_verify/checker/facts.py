@@ -21,6 +21,7 @@ from fomas_verify.checker.ruling import Undecided
 
 BITS = (128, 256, 512, 1024, 2048, 4096)
 MAX_FIELD_WORK = 2**22
+MAX_SCALE = 2**14
 
 Approximation = Callable[[int], Enclosure]
 Exact = Callable[[], int]
@@ -53,6 +54,12 @@ class Facts:
     def tied_mu(self) -> Fraction | None:
         """mu if it is rational and alpha = 1/2: where a tie with 2^alpha is possible; else None."""
         return self.design.mu if self.design.alpha == Fraction(1, 2) else None
+
+    def limit_scale(self) -> None:
+        """Raise `Undecided` where gamma, mu or h is so far from 1 that many samples or parts take too long."""
+        for x in (self.design.gamma, self.design.mu, self.design.h):
+            if x is not None and abs(x.numerator.bit_length() - x.denominator.bit_length()) > MAX_SCALE:
+                raise Undecided("at a gamma, mu or h so far from 1 this is beyond the work allowed")
 
     def mu(self, bits: int) -> Enclosure:
         """mu = gamma h^alpha / Gamma(alpha + 1)."""

@@ -97,7 +97,7 @@ class Root:
             self.modulus = divided(self.modulus, factor)[0]
 
     def _narrow(self, bits: int) -> None:
-        """Make the interval 2^bits times narrower, or more.
+        """Make the interval 2^bits times narrower, or more, or find y itself, which the modulus then says.
 
         The three multiples of a power of two around the root of the chord are tried, with a step of at most 2^-depth
         of the interval: twice the depth where one step holds y afterwards, half of it otherwise. Only signs move an

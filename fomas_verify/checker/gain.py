@@ -12,7 +12,7 @@ from math import ceil
 from typing import cast
 
 from fomas_verify.checker.designs import Design, Interval, UncertainDesign
-from fomas_verify.checker.powers import REMEMBERED, Enclosure, gamma_one_plus, outward, point, power
+from fomas_verify.checker.powers import REMEMBERED, Enclosure, gamma_one_plus, outward, outward_over, point, power
 
 _WIDEST = Fraction(1, 16)
 MAX_PARTS = 2**12
@@ -51,7 +51,7 @@ class Gain:
             return Enclosure(min(half.lower for half in halves), max(half.upper for half in halves))
         ends = [self._ends(alpha, bits) for alpha in (first, last)]
         beyond = [
-            high.upper * max(Fraction(1), high.upper / _short(self._ends(other, bits)[1], bits).lower)
+            high.upper * max(Fraction(1), high.upper / _short(self._ends(other, bits)[1].lower, bits))
             for (_, high), other in zip(ends, (first - width, last + width), strict=True)
             if 0 <= other <= 1
         ]
@@ -96,8 +96,9 @@ class Gain:
         return low, low if gamma[0] == gamma[1] and h[0] == h[1] else mu_at(gamma[1], h[1], alpha, bits)
 
 
-def _short(x: Enclosure, bits: int) -> Enclosure:
-    return outward(x.lower, x.upper, bits)
+def _short(x: Fraction, bits: int) -> Fraction:
+    """A lower bound of x > 0 of few bits."""
+    return outward(x, x, bits).lower
 
 
 @lru_cache(maxsize=REMEMBERED)
@@ -106,7 +107,7 @@ def mu_at(gamma: Fraction, h: Fraction, alpha: Fraction, bits: int) -> Enclosure
     if alpha in (0, 1):
         return point(gamma * h**alpha.numerator)
     top, below = power(h, alpha, bits), gamma_one_plus(alpha, bits)
-    return outward(gamma * top.lower / below.upper, gamma * top.upper / below.lower, bits)
+    return outward_over(gamma, top, below, bits)
 
 
 def gain_of(design: Design | UncertainDesign) -> Gain:

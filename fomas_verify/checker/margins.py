@@ -98,6 +98,7 @@ def require_order_margin(facts: Facts, margin: OrderMargin) -> str:
     truth = _truth(facts, margin)
     said, other = ("true", "false") if truth else ("false", "true")
     if a < b:
+        facts.limit_scale()
         curve = Curve(facts.graph, gain_of(facts.design))
         true, false = _seen(curve, margin)
         most = curve.most if margin.claim == "repaired-condition" else MAX_PARTS
@@ -159,5 +160,6 @@ def require_norm_margin(facts: Facts, margin: NormMargin) -> str:
         need_that(a <= alpha <= b, "inner[0] <= alpha <= inner[1]")
         gain = gain_of(facts.design).over_slab(a, b, BITS[0])
         box = Box(facts.graph, (a, b), (gain.lower, gain.upper))
+    facts.limit_scale()
     require_over(box, "control-norm-bound", margin.verdict, margin.witness)
     return f"{margin.verdict} for every {'mu' if margin.of_mu else 'alpha'} of inner, as the witness shows"

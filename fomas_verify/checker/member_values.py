@@ -93,6 +93,7 @@ def _sigma_above(members: Members, x: Fraction) -> int | None:
     if signs != [1, 1] or x <= 0:
         return -1 if -1 in signs else None if None in signs else 1
     graph, first, last = members.graph, members.least.lower, members.greatest.upper
+    members.at(last).limit_scale()
     work = graph.agents**3
     if 2 * _REACHES * work > MAX_SIGMA_WORK:
         return None

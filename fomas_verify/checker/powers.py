@@ -79,12 +79,27 @@ def second_threshold(alpha: Fraction, bits: int) -> Enclosure:
 
 def outward(lower: Fraction, upper: Fraction, bits: int) -> Enclosure:
     """An enclosure of [lower, upper], both > 0, its ends of bits + 8 bits: short numbers make short matrices."""
-    ends = []
-    for x, up in ((lower, False), (upper, True)):
-        shift = bits + 8 + x.denominator.bit_length() - x.numerator.bit_length()
-        units = _div(x.numerator << max(shift, 0), x.denominator << max(-shift, 0), up)
-        ends.append(Fraction(units << max(-shift, 0), 1 << max(shift, 0)))
-    return Enclosure(ends[0], ends[1])
+    return Enclosure(
+        _rounded(lower.numerator, lower.denominator, bits, False),
+        _rounded(upper.numerator, upper.denominator, bits, True),
+    )
+
+
+def outward_over(x: Fraction, top: Enclosure, below: Enclosure, bits: int) -> Enclosure:
+    """The same of x top / below, all > 0; numbers of any length share no divisors that would have to be sought."""
+    ends = ((top.lower, below.upper, False), (top.upper, below.lower, True))
+    lower, upper = (
+        _rounded(x.numerator * a.numerator * b.denominator, x.denominator * a.denominator * b.numerator, bits, up)
+        for a, b, up in ends
+    )
+    return Enclosure(lower, upper)
+
+
+def _rounded(above: int, below: int, bits: int, up: bool) -> Fraction:
+    """above / below > 0, rounded up or down to bits + 8 bits."""
+    shift = bits + 8 + below.bit_length() - above.bit_length()
+    units = _div(above << max(shift, 0), below << max(-shift, 0), up)
+    return Fraction(units << max(-shift, 0), 1 << max(shift, 0))
 
 
 def quotient(x: Enclosure, y: Enclosure) -> Enclosure:

@@ -27,6 +27,8 @@ def require_size(facts: Facts, value: Value) -> str:
     lacking = _lacks(name, design)
     need_that(not lacking, f"{name} exists (the design has no {lacking})")
     need(schur_sign(facts), (1,), f"{name} exists (P is Schur on 1perp)")
+    if name != "limit":
+        facts.limit_scale()
     if isinstance(value, Rate):
         require_rate(facts, value.kappa, value.rho)
         return "norm(P^k) <= kappa rho^k for every k >= 0"

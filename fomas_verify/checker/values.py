@@ -7,15 +7,13 @@ from collections.abc import Callable
 from fractions import Fraction
 from typing import cast
 
-from fomas_verify.checker.designs import Design
 from fomas_verify.checker.facts import Facts, compare
 from fomas_verify.checker.margins import require_gain_margin, require_norm_margin, require_order_margin
-from fomas_verify.checker.ruling import Undecided, need, need_that
+from fomas_verify.checker.ruling import need, need_that
 from fomas_verify.checker.sizes import SIZES, require_size
 from fomas_verify.checker.thresholds import beta_below, sigma_below
 from fomas_verify.checker.value_form import Bounds, GainMargin, NormMargin, OrderMargin, Value
 
-MAX_SCALE = 2**14
 _UNDER_ASSUMPTION = frozenset({"lambda2", "beta", "sigma"})
 
 
@@ -30,8 +28,6 @@ def require_value(facts: Facts, value: Value) -> str:
         If that was not decided within the work allowed.
     """
     name = value.name
-    if name in SIZES or isinstance(value, GainMargin | OrderMargin | NormMargin):
-        _limit_scale(facts.design)
     if isinstance(value, GainMargin):
         return require_gain_margin(facts, value)
     if isinstance(value, OrderMargin):
@@ -47,12 +43,6 @@ def require_value(facts: Facts, value: Value) -> str:
     need(below(facts, bounds.lower), (-1, 0), f"lower <= {name}")
     need(below(facts, bounds.upper), (0, 1), f"{name} <= upper")
     return f"lower <= {name} <= upper"
-
-
-def _limit_scale(design: Design) -> None:
-    for x in (design.gamma, design.mu, design.h):
-        if x is not None and abs(x.numerator.bit_length() - x.denominator.bit_length()) > MAX_SCALE:
-            raise Undecided("sizes and margins at such a gamma, mu or h are beyond the work allowed")
 
 
 def _negated(sign: int | None) -> int | None:

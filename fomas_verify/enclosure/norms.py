@@ -90,14 +90,14 @@ def _magnitude(a: BallMatrix) -> int:
     return int(exponent) + fmpz(mantissa).bit_length()
 
 
-def columns(vectors: Sequence[Sequence[Fraction]]) -> BallMatrix:
+def ball_columns(vectors: Sequence[Sequence[Fraction]]) -> BallMatrix:
     """The matrix with these columns."""
     entries = [[arb(to_fmpq(x)) for x in vector] for vector in vectors]
     return arb_mat([list(row) for row in zip(*entries, strict=True)])
 
 
 def squared_image(a: BallMatrix, vectors: BallMatrix) -> Interval:
-    """The sum of the squares of all entries of A V, V given by `columns`; rigorous."""
+    """The sum of the squares of all entries of A V, V given by `ball_columns`; rigorous."""
     image = a * vectors
     squares = [[x * x for x in column] for column in zip(*image.tolist(), strict=True)]
     return sum((to_interval(sum(column, arb(0))) for column in squares), Interval.exactly(0))

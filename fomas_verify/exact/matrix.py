@@ -114,13 +114,13 @@ def evaluate(polynomial: fmpz_poly, a: Matrix) -> Matrix:
     return value
 
 
-def length(a: Matrix) -> int:
+def longest_bits(a: Matrix) -> int:
     """The bits of the longest entry of A, common factors and denominators left out."""
     entries = [abs(int(x)) for x in a.numer_denom()[0].entries()]
     return (max(entries) // (gcd(*entries) or 1)).bit_length()
 
 
-def shortened(a: Matrix, bits: int) -> tuple[Matrix, Fraction, int]:
+def leading_bits(a: Matrix, bits: int) -> tuple[Matrix, Fraction, int]:
     """B with whole entries, s > 0 and e with ``norm(A - s B) <= s e``, for a symmetric A of which every row sums to 0,
     as every row of B does. B holds so many of the leading bits of A's longest entry.
     """

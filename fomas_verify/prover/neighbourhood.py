@@ -14,7 +14,7 @@ from typing import Any
 from fomas_verify.claims import control_norm_bound
 from fomas_verify.claims.verdict import Decision, Verdict
 from fomas_verify.enclosure.interval import Interval, round_up, short_dyadic
-from fomas_verify.enclosure.norms import ball_identity, columns, perron_matrix, plus_multiple, squared_image
+from fomas_verify.enclosure.norms import ball_columns, ball_identity, perron_matrix, plus_multiple, squared_image
 from fomas_verify.enclosure.real import square_root, working_precision
 from fomas_verify.exact.matrix import apply, norm_squared
 from fomas_verify.kernel.memory import resolvent_over
@@ -138,7 +138,7 @@ def _exceeds(loop: Loop, box: Box, e0: list[Fraction], k: int) -> bool:
     size, far = square_root(Interval.exactly(norm_squared(e0)), BITS).upper, Fraction(0)
     with working_precision(BITS):
         perron, identity = perron_matrix(loop.laplacian, Interval.exactly(box.mu.mid)), ball_identity(len(e0))
-        phi, start = identity, columns([e0])
+        phi, start = identity, ball_columns([e0])
         for r in resolvent_over(box.alpha, k + 1, BITS)[1:]:
             norm = square_root(squared_image(phi, start), BITS).upper
             far = round_up(widest * far + steepest * box.mu.width / 2 * norm + r.width / 2 * size, 2 * BITS)

@@ -11,7 +11,7 @@ from fractions import Fraction
 from typing import TypeAlias
 
 from fomas_verify.enclosure.interval import Interval
-from fomas_verify.enclosure.norms import BallMatrix, columns, squared_image
+from fomas_verify.enclosure.norms import BallMatrix, ball_columns, squared_image
 from fomas_verify.enclosure.real import square_root, working_precision
 from fomas_verify.exact import matrix as exact
 from fomas_verify.kernel.memory import threshold
@@ -71,5 +71,5 @@ def _size_on_sum_zero(run: Samples) -> Size:
 def _size_along(loop: Loop, components: Sequence[Sequence[Fraction]], bits: int) -> Size:
     """``norm(A e_0) / norm(e_0)``, e_0 = L x_0, from above."""
     e0 = [exact.apply(loop.laplacian, x) for x in components]
-    square, start = sum((exact.norm_squared(e) for e in e0), Fraction(0)), columns(e0)
+    square, start = sum((exact.norm_squared(e) for e in e0), Fraction(0)), ball_columns(e0)
     return lambda a: square_root(squared_image(a, start) / square, bits).upper

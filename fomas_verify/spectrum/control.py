@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from fomas_verify.enclosure.interval import Interval, round_up, short_dyadic
-from fomas_verify.enclosure.norms import BallMatrix, approx_preimage_of_top, columns, squared_image
+from fomas_verify.enclosure.norms import BallMatrix, approx_preimage_of_top, ball_columns, squared_image
 from fomas_verify.enclosure.real import square_root, working_precision
 from fomas_verify.exact import matrix as exact
 from fomas_verify.spectrum.loop import Loop
@@ -35,7 +35,7 @@ LEAST_GAP, LEAST_BOUND = Fraction(1, 1 << 16), Fraction(1, 1 << 8192)
 """No rate is sought where 1 minus the spectral radius is below the first, nor beyond powers of rho below the second."""
 
 EXACT_SIZE_BITS = 4096
-"""``norm e_0`` is kept exactly up to so many bits, so that ties are seen; beyond, it is enclosed."""
+"""The square of ``norm e_0`` is exact where its denominator has at most so many bits, so that ties are seen."""
 
 DOUBLINGS = 64
 """The settling sample is sought below 2^64."""
@@ -50,7 +50,7 @@ def state_above(loop: Loop, k: int, bits: int) -> list[Fraction] | None:
         while approximation is not None and scale <= bits:
             x0 = [Fraction(round(x * (1 << scale))) for x in approximation]
             e0 = exact.apply(loop.laplacian, x0)
-            if squared_image(phi, columns([e0])).lower > exact.norm_squared(e0):
+            if squared_image(phi, ball_columns([e0])).lower > exact.norm_squared(e0):
                 return x0
             scale += 1 + scale // 2
     return None
@@ -78,7 +78,7 @@ def follow(loop: Loop, components: Sequence[Sequence[Fraction]], bits: int, limi
     e0 = [exact.apply(loop.laplacian, x) for x in components]
     size = Interval.exactly(sum((exact.norm_squared(e) for e in e0), Fraction(0))).shortened(EXACT_SIZE_BITS)
     with working_precision(bits):
-        start = columns(e0)
+        start = ball_columns(e0)
         run = Samples(loop, bits)
         test, powers = TailTest(run.alpha, bits), {0: Fraction(1)}
         largest, at = Interval.exactly(0), 0

@@ -90,7 +90,8 @@ class Loop:
         if null.ncols() != 1:
             return None
         w = [int(x) for x in null.numer_denom()[0].entries()]
-        return [Fraction(x, sum(w)) for x in w]
+        total = sum(w)
+        return [Fraction(x, total) for x in w]
 
     @of_loop
     def mu(self, bits: int) -> Interval:
@@ -191,11 +192,11 @@ def decrease(laplacian: Matrix, mu: Fraction) -> Matrix:
 def least_decrease(laplacian: Matrix, mu: Fraction, bits: int) -> Interval:
     """The smallest eigenvalue nu of S on 1perp, for a balanced graph: ``sigma^2 = 1 - mu nu``. Rigorous.
 
-    It comes from the leading bits of long entries, where these are enough.
+    It comes from the leading bits of long entries where these give so many bits of nu, and then is not exact.
     """
     s = decrease(laplacian, mu)
-    if exact.length(s) > LONGEST_ENTRY:
-        short, scale, far = exact.shortened(s, LONGEST_ENTRY)
+    if bits < LONGEST_ENTRY < exact.longest_bits(s):
+        short, scale, far = exact.leading_bits(s, LONGEST_ENTRY)
         root = least_root(without_zero_root(integer_characteristic_polynomial(short)[0]), bits)
         nu = Interval(root.lower - far, root.upper + far) * scale
         if nu.width * 2**bits <= max(nu.lower, -nu.upper):

@@ -25,6 +25,7 @@ from .model import Design, degree_max, laplacian
 DPS = 60
 TINY = Fraction(1, 10**40)
 FINE = 1e-7
+LARGEST = 1e150
 MOST_PARTS = 3000
 Span = tuple[Any, Any]
 
@@ -101,33 +102,39 @@ def _perron(design: Design, x: Any, y: Any, gains: Span) -> Span:
 
 
 @lru_cache(maxsize=64)
-def _floats(design: Design) -> tuple[Any, Any]:
-    lap = np.array([[float(x) for x in row] for row in laplacian(design)])
-    return lap, np.eye(design.agents) - 1 / design.agents
+def _real_laplacian(design: Design) -> list[list[Any]]:
+    with mp.workdps(DPS):
+        return [[oracle.real(x) for x in row] for row in laplacian(design)]
 
 
-def _sigma(design: Design, gain: Any, exact: bool) -> Span:
-    """sigma at a gain, to the working precision where exact, otherwise in floats with a guard against rounding."""
-    if exact:
+def _sigma(design: Design, gain: Any, in_digits: bool) -> Span:
+    """sigma at a gain, to the working precision, or in floats with a guard against rounding; then any number where P
+    has outgrown them.
+    """
+    if in_digits:
         basis = oracle._orthonormal_basis(design.agents)
         p = basis - gain * (mp.matrix([[oracle.real(x) for x in row] for row in laplacian(design)]) * basis)
         size = oracle.largest_singular_value(p)
         return size, size
-    lap, centre = _floats(design)
-    size = mp.mpf(float(np.linalg.norm(centre - float(gain) * lap @ centre, 2)))
+    if gain * oracle.real(degree_max(design)) > LARGEST:
+        return mp.ninf, mp.inf
+    step = np.array([[float(gain * x) for x in row] for row in _real_laplacian(design)])
+    centre = np.eye(design.agents) - 1 / design.agents
+    size = mp.mpf(float(np.linalg.norm(centre - step @ centre, 2)))
     guard = mp.mpf("1e-12") * (1 + 2 * gain * oracle.real(degree_max(design)))
     return size - guard, size + guard
 
 
 def _repaired(design: Design, x: Any, y: Any, gains: Span) -> Span:
-    span = _repaired_by(design, x, y, gains, exact=False)
-    straddles = span[0] <= 0 <= span[1]
-    return _repaired_by(design, x, y, gains, exact=True) if straddles and y - x < FINE else span
+    span = _repaired_by(design, x, y, gains, in_digits=False)
+    if span[0] > 0 or span[1] < 0 or y - x >= FINE:
+        return span
+    return _repaired_by(design, x, y, gains, in_digits=True)
 
 
-def _repaired_by(design: Design, x: Any, y: Any, gains: Span, exact: bool) -> Span:
+def _repaired_by(design: Design, x: Any, y: Any, gains: Span, *, in_digits: bool) -> Span:
     low, high = gains
-    sizes = [_sigma(design, gain, exact) for gain in {low, high}]
+    sizes = [_sigma(design, gain, in_digits) for gain in {low, high}]
     steepest = oracle.real(2 * degree_max(design))  # norm L <= 2 D on a balanced graph
     below = max(size[0] for size in sizes) - steepest * (high - low)
     return mp.mpf(2) ** x - 1 - max(size[1] for size in sizes), mp.mpf(2) ** y - 1 - below

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from fractions import Fraction
 from functools import lru_cache
+from math import ceil, log2
 from operator import mul
 from typing import Any
 
@@ -23,7 +24,7 @@ Block = list[list[Any]]
 Truth = bool | None
 NEAR = 1e-11
 GUARD = 30
-SPARE = 64
+SPARE = 64  # bits for what the roundings of a few thousand terms add up to
 
 
 class Kernel:
@@ -32,7 +33,7 @@ class Kernel:
     def __init__(self, alpha: Fraction, dps: int) -> None:
         self.alpha, self.dps = alpha, dps
         self._c: list[Any] = [mp.mpf(1)]
-        self._bits = int(3.33 * (dps + GUARD)) + SPARE
+        self._bits = ceil((dps + GUARD) * log2(10)) + SPARE
         self._falls: list[int] = []
         self._r: list[int] = [1 << self._bits]
 
@@ -47,7 +48,7 @@ class Kernel:
         return self._c[n]
 
     def r(self, n: int) -> Any:
-        """r_n = -sum_{j=1}^{n} f(j) r_{n-j}, with f(j) = c_j - c_{j-1}, by integers: all are in [0, 1]."""
+        """r_n = -sum_{j=1}^{n} f(j) r_{n-j}, with f(j) = c_j - c_{j-1}, by integers: all lie in [0, 1]."""
         self.c(n)
         while len(self._r) <= n:
             self._r.append(sum(map(mul, self._falls, reversed(self._r))) >> self._bits)

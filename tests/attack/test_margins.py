@@ -10,7 +10,7 @@ import pytest
 from mpmath import mp
 
 from . import margins
-from .alpha_range import gain_span, turning_point
+from .alpha_range import gain_span, truth_over, turning_point
 from .designs import BROKEN, PUBLISHED, TIES, complete, path
 from .handmade_margins import margins as made_by_hand
 from .model import Design
@@ -166,3 +166,16 @@ def test_margins_made_by_hand_hold(name):
     made = made_by_hand(design)
     assert {"gain-bound", "perron-eigenvalues"} - made.keys() <= {"perron-eigenvalues"}
     assert len(made) >= 1
+
+
+@pytest.mark.parametrize(
+    ("weight", "gamma", "truth"),
+    [(F(1), F(10**400), False), (F(10**400), F(1, 3 * 10**400), True), (F(1, 10**400), F(10**400, 3), True)],
+)
+def test_an_interval_of_alpha_for_numbers_beyond_floats(weight, gamma, truth):
+    """Two agents: sigma = abs(1 - 2 w mu) = 0.307 where w gamma = 1/3, and 2^alpha - 1 = 0.866."""
+    pair = ((1, 2, weight), (2, 1, weight))
+    design = replace(PAPER, agents=2, edges=pair, x0=None, mu=None, gamma=gamma, h=F(1))
+    ends = F(9, 10), F(9, 10)
+    assert truth_over(design, "repaired-condition", truth, *ends) is True
+    assert truth_over(design, "repaired-condition", not truth, *ends) is False

@@ -151,6 +151,7 @@ def test_narrowing_meets_a_rational_root() -> None:
         (3 * X**3 - X - Fraction(1, 10**400), 0, 1),
         (X**3 - 10**900 * X + 1, 0, 1),
         ((X**2 - 2) * (X**2 - 3), Fraction(3, 2), 2),
+        ((X**2 - 2) * (X**2 - 2 - Fraction(1, 10**7)), Fraction(141421358, 10**8), 2),  # another one just below
     ],
 )
 def test_narrowing_keeps_the_root_with_few_signs(monkeypatch, polynomial, lower, upper) -> None:

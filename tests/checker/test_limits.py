@@ -16,7 +16,6 @@ from fomas_verify.checker import (
     samples,
     stability,
     text,
-    values,
 )
 
 PAGE = " ".join((Path(__file__).resolve().parents[2] / "docs" / "certificate-format.md").read_text().split())
@@ -44,7 +43,7 @@ def named(pattern: str) -> int:
         (facts.MAX_FIELD_WORK, r"degree\^2 N\^3 <= (2\^\d+)"),
         (contraction.MAX_POLYNOMIAL_WORK, r"length\^3 bits <= (2\^\d+)"),
         (definite.MAX_QUICK_WORK, r"fixed point N\^3 bits\^2 <= (2\^\d+)"),
-        (values.MAX_SCALE, r"between 2\^-e and 2\^e, e = (2\^\d+)"),
+        (facts.MAX_SCALE, r"(2\^\d+) bits between the lengths of numerator and denominator"),
         (resolvent.MAX_SAMPLES, r"samples (\d+ \d+),"),
         (samples.MAX_SAMPLE_BITS // 5, r"bits times samples <= 5 (2\^\d+)"),
         (stability.MAX_PRODUCT_WORK, r"Pc` N\^3 bits\^2 <= (2\^\d+)"),

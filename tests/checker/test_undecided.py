@@ -209,7 +209,26 @@ def test_sizes_and_margins_far_from_1_are_left_undecided(number: str, form: str,
     """10^4932 is below 2^16384, ten times as much is not."""
     document = json.loads((CORPUS / "margins.json").read_bytes())
     document["design"][number] = form.format("1" + "0" * zeros)
-    found = {x.id: x.reason for x in checked(document).outcomes if "margins" in x.id or x.id == "rate"}
-    beyond = {name for name, reason in found.items() if reason.startswith("sizes and margins at such a gamma, mu or h")}
-    assert len(found) > 8
-    assert beyond == (found.keys() if zeros > 4932 else set())
+    beyond = [x.id for x in checked(document).outcomes if x.reason.startswith("at a gamma, mu or h so far from 1")]
+    assert ("margins.gain-bound.alpha" in beyond) == (zeros > 4932)
+    assert ("rate" in beyond) == (zeros > 4932 and form == "1/{}")
+    assert zeros > 4932 or beyond == []
+
+
+def test_sizes_at_a_mu_far_from_1_are_left_undecided() -> None:
+    document = json.loads((CORPUS / "c4-third.json").read_bytes())
+    document["design"]["mu"] = "1/1" + "0" * 4933
+    document["values"] = {"rate": {"kappa": "1", "rho": "1/2"}}
+    assert outcome(document, "rate") == (
+        "undecided",
+        "at a gamma, mu or h so far from 1 this is beyond the work allowed",
+    )
+
+
+@pytest.mark.parametrize(("zeros", "status"), [(4900, "accepted"), (4950, "undecided")])
+def test_the_least_sigma_of_members_far_from_1_is_left_undecided(zeros: int, status: str) -> None:
+    """gamma from 10^-n on: sigma > 1/2."""
+    document = json.loads((CORPUS / "interval-over-the-largest-gain.json").read_bytes())
+    document["design"]["gamma"] = ["1/1" + "0" * zeros, "2/1" + "0" * zeros]
+    document["values"] = {"sigma": {"lower": "1/2", "upper": "1"}}
+    assert outcome(document, "sigma")[0] == status

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from flint import arb, arb_mat
 
-from fomas_verify.enclosure.norms import ball_identity, centered, columns, spectral_norm, squared_image
+from fomas_verify.enclosure.norms import ball_columns, ball_identity, centered, spectral_norm, squared_image
 from fomas_verify.enclosure.real import working_precision
 
 
@@ -43,5 +43,5 @@ def test_the_zero_matrix_and_one_of_tiny_balls() -> None:
 def test_the_square_of_a_ball_around_zero_is_finite() -> None:
     """An image whose entries straddle 0: powers of such balls would not be finite."""
     with working_precision(100):
-        square = squared_image(arb_mat(2, 2, [arb(0, 1e-20)] * 4), columns([[Fraction(1), Fraction(-1)]]))
+        square = squared_image(arb_mat(2, 2, [arb(0, 1e-20)] * 4), ball_columns([[Fraction(1), Fraction(-1)]]))
     assert square.lower <= 0 <= square.upper < Fraction(1, 10**38)

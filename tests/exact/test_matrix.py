@@ -98,7 +98,7 @@ def test_forms_on_1perp_and_on_differences() -> None:
 def test_leading_bits_are_as_near_as_said(rows: list[list[Fraction]], bits: int) -> None:
     whole = [[x - (sum(row) if i == j else 0) for j, x in enumerate(row)] for i, row in enumerate(rows)]
     assume(any(map(any, whole)))
-    short, scale, far = exact.shortened(exact.matrix(whole), bits)
+    short, scale, far = exact.leading_bits(exact.matrix(whole), bits)
     kept = exact.to_rows(short)
     assert all(x.denominator == 1 for row in kept for x in row)
     assert [sum(row) for row in kept] == [0] * len(kept)
@@ -108,4 +108,4 @@ def test_leading_bits_are_as_near_as_said(rows: list[list[Fraction]], bits: int)
 
 def test_the_length_of_entries_leaves_out_what_they_share() -> None:
     rows = [[Fraction(3 * 2**900, 7), Fraction(-(2**901))], [Fraction(0), Fraction(2**900)]]
-    assert exact.length(exact.matrix(rows)) == 4  # 3, -14, 0 and 7 times 2^900, over 7
+    assert exact.longest_bits(exact.matrix(rows)) == 4  # 3, -14, 0 and 7 times 2^900, over 7

@@ -1,6 +1,7 @@
 """How many samples are looked at, and that a search which ends there finds nothing rather than something wrong."""
 
 from dataclasses import replace
+from fractions import Fraction
 
 import pytest
 
@@ -8,6 +9,7 @@ from fomas_verify.claims import control_norm_bound
 from fomas_verify.claims.verdict import Verdict
 from fomas_verify.design import design_from_mapping
 from fomas_verify.prover.sizes import measure
+from fomas_verify.spectrum.control import follow
 from fomas_verify.spectrum.loop import Loop
 from fomas_verify.spectrum.samples import sample_limit, search
 
@@ -44,3 +46,18 @@ def test_a_bound_that_the_samples_do_not_show_is_undecided() -> None:
     one = replace(ring(6, alpha="887/1000", mu="1/2"), most_samples=1)
     assert control_norm_bound.decide(one).verdict is Verdict.UNDECIDED
     assert control_norm_bound.decide(ring(6, alpha="887/1000", mu="1/2")).verdict is Verdict.PROVED
+
+
+@pytest.mark.parametrize(
+    ("graph", "mu", "x0"),
+    [([[0, 0, 1], [1, 0, 0], [0, 1, 0]], "27/200", [4, 5, -1]), ([[0, 1], [1, 0]], "1/2", [1, 0])],
+)
+@pytest.mark.parametrize("power", [1200, 3000])
+def test_a_multiple_of_a_start_has_the_same_trajectory(graph, mu, x0, power) -> None:
+    """The square of norm e_0 is exact in the first, and enclosed in the second."""
+    design = design_from_mapping({"name": "x", "alpha": "9/10", "mu": mu, "graph": {"adjacency": graph}})
+    loop = Loop(design)
+    first, second = (follow(loop, [[x * factor for x in x0]], 128) for factor in (Fraction(1), Fraction(1, 3**power)))
+    assert (first.above, first.at, first.examined) == (second.above, second.at, second.examined)
+    assert first.tail == second.tail
+    assert first.largest.overlaps(second.largest)
