@@ -130,6 +130,15 @@ def test_the_bound_over_a_part_takes_the_ends_that_are_worst(monkeypatch: pytest
     assert 4 <= box.upper <= Fraction(401, 100)
 
 
+def test_the_bound_over_a_part_by_an_end_of_many_bits(monkeypatch: pytest.MonkeyPatch) -> None:
+    """mu is 9/8 at the ends of the part, a hair above 1/2 beyond the last; below alpha = 0 nothing is asked."""
+    beyond = Fraction(1, 2) + Fraction(1, 2**40)
+    boxes = {Fraction(1, 20): Fraction(9, 8), Fraction(1, 5): Fraction(9, 8), Fraction(7, 20): beyond}
+    monkeypatch.setattr(Gain, "_ends", lambda self, alpha, bits: (point(boxes[alpha]),) * 2)
+    box = Gain((beyond, beyond), None, (beyond, beyond)).over(Fraction(1, 20), Fraction(1, 5), 2)
+    assert Fraction(81, 64) / beyond <= box.upper <= Fraction(254, 100)
+
+
 def test_the_middle_and_the_radius() -> None:
     box = Enclosure(Fraction(-1), Fraction(4))
     assert (box.middle, box.radius) == (Fraction(3, 2), Fraction(5, 2))

@@ -1,6 +1,7 @@
 """What the checker cannot decide within its work is neither accepted nor refused; and it ends."""
 
 import json
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
@@ -9,6 +10,7 @@ import pytest
 from fomas_verify.checker import check, facts
 from fomas_verify.checker.graph import Graph
 from fomas_verify.checker.powers import Enclosure
+from fomas_verify.checker.ruling import Undecided
 from tests.checker.builder import (
     Json,
     certificate,
@@ -232,3 +234,11 @@ def test_the_least_sigma_of_members_far_from_1_is_left_undecided(zeros: int, sta
     document["design"]["gamma"] = ["1/1" + "0" * zeros, "2/1" + "0" * zeros]
     document["values"] = {"sigma": {"lower": "1/2", "upper": "1"}}
     assert outcome(document, "sigma")[0] == status
+
+
+def test_how_far_from_1_is_too_far() -> None:
+    found = check(json.dumps(certificate(design(path(2), 2, mu="1/10"))).encode()).design
+    for mu in (Fraction(2**16384), Fraction(1, 2**16384)):
+        facts.Facts(replace(found, mu=mu), Graph(found)).limit_scale()
+        with pytest.raises(Undecided):
+            facts.Facts(replace(found, mu=mu * mu), Graph(found)).limit_scale()
