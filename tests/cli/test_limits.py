@@ -200,6 +200,7 @@ def wait_until_gone(process: int) -> None:
         time.sleep(0.05)
 
 
+# The processes that a run leaves behind have other parents; only /proc lists them all.
 needs_proc = pytest.mark.skipif(
     not Path("/proc/self/task").exists(), reason="what is left of a run is looked for in /proc, which macOS has not"
 )

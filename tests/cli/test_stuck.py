@@ -44,6 +44,7 @@ def test_processes_are_seen_by_group_and_a_change_begins_anew(monkeypatch: pytes
     assert [watch.stuck() for _ in range(4)] == [False, False, False, True]
 
 
+# Elsewhere the watch itself reads no limit of another process, so that there is nothing to test.
 @pytest.mark.skipif(not hasattr(resource, "prlimit"), reason="only Linux lets one process read another's limit")
 def test_a_real_process_is_read() -> None:
     code = (

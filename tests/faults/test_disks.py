@@ -20,6 +20,7 @@ from .processes import told
 
 pytestmark = [
     pytest.mark.slow,
+    # Mounting a tmpfs and dropping a capability are calls that no other system has.
     pytest.mark.skipif(sys.platform != "linux", reason="a tmpfs is filled and a capability dropped, as Linux can"),
 ]
 CAP_DAC_OVERRIDE, PR_CAPBSET_DROP = 1, 24

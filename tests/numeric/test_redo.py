@@ -149,6 +149,7 @@ print(Redo(1 << 20).lambda2_at_least(graph, bound), Redo(MEMORY).lambda2_at_leas
 
 
 @pytest.mark.slow
+# The limit is held against /proc/self/statm; elsewhere there is no limit to be tested.
 @pytest.mark.skipif(sys.platform != "linux", reason="the limit needs a process's memory, which only Linux tells")
 def test_no_memory_is_no_answer() -> None:
     """A random graph of degree 8, whose factor fills in, in a process that has no memory left from before."""

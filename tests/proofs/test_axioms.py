@@ -19,6 +19,7 @@ COMMENT = re.compile(r"\(\*.*?\*\)", re.DOTALL)
 GIVEN_UP = re.compile(r"\b(?:Admitted|admit|give_up|Abort\s+All|bypass_check)\b|Unset\s+(?:Guard|Positivity|Universe)")
 ASSUMED = re.compile(r"\b(?:Axioms?|Parameters?|Conjectures?|Hypothes[ie]s|Variables?|Context)\b")
 SECTION = re.compile(r"(?:^|(?<=\.))\s*(Section|End|Module)\b|" + ASSUMED.pattern, re.MULTILINE)
+# Coq is no Python package: who is not root, or has no Debian, may lack it and still run all other tests.
 needs_coq = pytest.mark.skipif(shutil.which("coqc") is None, reason="no coqc: `make test` installs it where it can")
 
 

@@ -31,6 +31,7 @@ DESIGNS = {
     "ring of 100": "name = 'ring of 100'\nalpha = 0.9\ngamma = 0.15\nh = 0.85\n"
     "[graph]\nfamily = 'directed-cycle'\nagents = 100\n",
 }
+# A LaTeX is no Python package: who is not root, or has no Debian, may lack it and still run all other tests.
 needs_latex = pytest.mark.skipif(shutil.which("pdflatex") is None, reason="no LaTeX: `make test` installs it if it can")
 
 

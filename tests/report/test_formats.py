@@ -254,6 +254,7 @@ def test_calls_that_do_not_go_together(arguments: list[str], said: str, checkout
     assert not (tmp_path / "out").exists()
 
 
+# A browser is no Python package: who is not root, or has no Debian, may lack it and still run all other tests.
 @pytest.mark.skipif(shutil.which("chromium") is None, reason="no browser: `make test` installs it where it can")
 def test_a_phone_scrolls_no_page_sideways(paper: Proof, tmp_path: Path) -> None:
     """The page in a frame of 390 pixels, asked by the page around it how wide it is."""

@@ -1,7 +1,5 @@
 """The figures show the trajectory: their data, and files that are what they say."""
 
-import importlib.util
-
 import numpy as np
 import pytest
 
@@ -17,9 +15,6 @@ NAMES = {
     "states-proposed", "control-energy-proposed", "memory-inequality", "states-memoryless", "mean-absolute-error",
     "control-energy-memoryless", "between-samples", "control-peak",
 }  # fmt: skip
-drawn = pytest.mark.skipif(
-    importlib.util.find_spec("matplotlib") is None, reason="matplotlib comes with the extra plot"
-)
 
 
 @pytest.fixture(scope="module")
@@ -101,7 +96,6 @@ def test_long_runs_and_many_agents_are_thinned() -> None:
     assert all(len(curve.x) <= MOST_POINTS for panel in found for curve in panel.curves)
 
 
-@drawn
 @pytest.mark.parametrize(("file_format", "start"), [("pdf", b"%PDF"), ("png", b"\x89PNG"), ("svg", b"<?xml")])
 def test_files(made: dict[str, Panel], file_format: str, start: bytes) -> None:
     data = draw(made["between-samples"], file_format)
@@ -109,7 +103,6 @@ def test_files(made: dict[str, Panel], file_format: str, start: bytes) -> None:
     assert data == draw(made["between-samples"], file_format)
 
 
-@drawn
 @pytest.mark.parametrize("laws", [(PROPOSED, MEMORYLESS), (PROPOSED, MEMORYLESS, truncated(9))], ids=len)
 def test_nothing_is_cut_off_or_hidden(plant: Plant, known: Certified, laws: tuple[Law, ...]) -> None:
     """Titles and legends lie inside of the figure, and a legend beside or below the axes covers none of them."""
@@ -130,7 +123,6 @@ def test_nothing_is_cut_off_or_hidden(plant: Plant, known: Certified, laws: tupl
         assert not any(axes.get_window_extent().overlaps(x.get_window_extent()) for x in figure.legends)
 
 
-@drawn
 def test_curves_are_really_drawn(made: dict[str, Panel]) -> None:
     """The SVG holds a path for each curve, and other data give another file."""
     text = draw(made["states-proposed"], "svg").decode()

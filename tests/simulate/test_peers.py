@@ -22,6 +22,7 @@ peers = pytest.mark.parametrize(
         by_pycaputo,
         pytest.param(
             by_fodeint,
+            # fodeint is released as source only; where it cannot be had or built, the Makefile goes on without it.
             marks=pytest.mark.skipif(
                 importlib.util.find_spec("fodeint") is None,
                 reason="fodeint is missing: its source could not be had or built (requirements/peers.txt)",

@@ -1,7 +1,6 @@
 """The table reads back as the trajectory, to the last bit."""
 
 import csv
-import importlib.util
 import io
 from dataclasses import replace
 
@@ -67,7 +66,6 @@ def test_the_table_is_the_same_in_many_parts(plant: Plant, monkeypatch: pytest.M
     assert whole.count(b"\n") == 1 + 91 + 2 * 90 + 3 * runs[1].last + 1
 
 
-@pytest.mark.skipif(importlib.util.find_spec("pyarrow") is None, reason="pyarrow comes with the extra sweep")
 def test_parquet_holds_the_same(plant: Plant) -> None:
     from pyarrow import BufferReader, parquet
 
